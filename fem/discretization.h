@@ -1,0 +1,78 @@
+#pragma once
+// From a refinement to element blocks: the node table, which element stands for which cell in the chosen space,
+// quadrature, mass and damping in the control points.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "fem/element_block.h"
+#include "fem/node_table.h"
+#include "subdiv/neighbourhood.h"
+#include "subdiv/refinement.h"
+
+namespace argil::fem {
+
+enum class Space {
+  standard,  // "default": trilinear elements (pyramids in irregular cells) on d = A p of the finest level
+  cubic      // tricubic elements at the coarsest regular level, the rest split trilinear ones at limit positions
+};
+
+/// Values at the vertices of the finest level (by vertex id); what a quadrature point sees is interpolated from
+/// them.
+struct NodalFields {
+  Eigen::VectorXd young_modulus;  // [Pa]
+  Eigen::VectorXd poisson_ratio;
+  Eigen::VectorXd density;  // [kg/m³]
+  Eigen::VectorXd damping;  // [1/s]
+};
+
+struct DiscretizationOptions {
+  Space space = Space::standard;
+  int split =
+      1;  // cubic space: remaining cells are split 2^split-fold (METHODS §3: patch residual .053, .013, .0034)
+};
+
+struct CellCounts {  // at the finest level; regular includes regular_published
+  std::size_t regular = 0, regular_published = 0, extraordinary = 0, irregular = 0;
+};
+struct ElementCounts {  // those integrated
+  std::size_t cubic = 0, linear = 0, pyramid = 0;
+  std::size_t pyramids_without_stiffness = 0;  // below 1e-3 of their cell's volume; they keep their mass
+};
+
+struct Discretization {
+  Space space = Space::standard;
+  int level = 0;
+  NodeTable nodes;
+  std::vector<ElementBlock> blocks;
+  CellCounts cells;
+  ElementCounts elements;
+  Eigen::Matrix3Xd rest_nodes;  // 3 x nodes
+  /// Row of the node table that shows vertex v of the finest level: the vertex itself, in cubic space its limit
+  /// point.
+  std::vector<std::uint32_t> surface_node_from_vertex;
+  Eigen::SparseMatrix<double> mass;     // control points, consistent: Aᵀ M A [kg]
+  Eigen::SparseMatrix<double> damping;  // ∫ damping · density NᵀN [kg/s]
+  double rest_volume = 0, total_mass = 0;
+};
+
+/// Counts without integrating, for `argil elements` (fields taken as constant).
+[[nodiscard]] CellCounts count_cells(const subdiv::Solid& finest);
+
+/// @throws Error (bad_geometry) naming the cell whose rest Jacobian at a quadrature point is ≤ 0.
+[[nodiscard]] Discretization discretize(const subdiv::Refinement& refinement,
+                                        const Eigen::Matrix3Xd& rest_control_points, const NodalFields& fields,
+                                        const DiscretizationOptions& options);
+
+/// Takes new fields (same refinement and rest positions) into material arrays, mass and damping. In cubic space the
+/// choice of levels may change with the fields: returns false if discretize() has to be called instead.
+[[nodiscard]] bool update_fields(Discretization& discretization, const subdiv::Refinement& refinement,
+                                 const NodalFields& fields);
+
+/// Present volume [m³]: sum over quadrature points of volume · det F.
+[[nodiscard]] double volume(const Discretization& discretization, const Eigen::Matrix3Xd& nodes);
+
+}  // namespace argil::fem

@@ -1,0 +1,54 @@
+#pragma once
+// What a solver or integrator sees of a body: unknowns are control points p (3 x N), nodes x = A p, forces come
+// back as Aᵀ f. Pins are taken out by dimension reduction; soft pins and tools are springs between a stencil of
+// control points and a target.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "fem/models/force_model.h"
+#include "subdiv/stencils.h"
+
+namespace argil::fem {
+
+/// Energy stiffness/2 · |Σ weight · p − target|²: a tool's spring, or a pin by penalty. Implicit in every
+/// integrator.
+struct AnchorSpring {
+  std::vector<std::uint32_t> control_points;  // ascending
+  std::vector<double> weights;
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();  // [m]
+  double stiffness = 0;                              // [N/m]
+};
+
+struct Loads {
+  Eigen::Matrix3Xd forces;  // generalised, on control points [N]; empty means none
+  std::vector<AnchorSpring> springs;
+};
+
+struct System {
+  const subdiv::Stencils* rows = nullptr;             // A: nodes in control points
+  const subdiv::Stencils* rows_transposed = nullptr;  // Aᵀ
+  const ForceModel* model = nullptr;
+  const Eigen::SparseMatrix<double>* mass = nullptr;
+  const Eigen::SparseMatrix<double>* damping = nullptr;
+  std::vector<std::uint8_t> fixed;  // per control point: 1 = moves exactly 0
+};
+
+/// History of the integrator. `previous_step` 0 means that there is none (the next step is implicit Euler).
+struct BodyState {
+  Eigen::Matrix3Xd positions, velocities;                    // control points, 3 x N
+  Eigen::Matrix3Xd previous_positions, previous_velocities;  // one step back; empty without history
+  double previous_step = 0;                                  // [s]
+  double time = 0;                                           // [s]
+};
+
+/// Reactions of the fixed control points [N], 3 x N (zero elsewhere): what the pin applies to the body, at rest
+/// −(internal + external) force.
+[[nodiscard]] Eigen::Matrix3Xd reactions(const System& system, const Loads& loads,
+                                         const Eigen::Matrix3Xd& positions);
+
+/// Elastic energy plus that of the springs [J].
+[[nodiscard]] double potential_energy(const System& system, const Loads& loads, const Eigen::Matrix3Xd& positions);
+
+}  // namespace argil::fem

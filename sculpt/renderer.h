@@ -1,0 +1,72 @@
+#pragma once
+// The seam through which a command shows a picture; tools/view fills it with OpenGL. Everything here is plain data,
+// so that a picture can be made of any state and tested without a window.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace argil::sculpt {
+
+/// A polygonal surface or set of cells' faces. Faces are quadrilaterals or polygons as CSR corners.
+struct SceneSurface {
+  std::vector<Eigen::Vector3f> positions;  // surface vertices [m]
+  std::vector<std::size_t> offsets{0};     // faces
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint32_t> cell_from_face;              // id for the id buffer
+  std::vector<float> values;                              // field per surface vertex; empty: clay
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges;  // creases: normals are split there
+  std::vector<std::array<std::uint32_t, 2>> wire;         // cell edges drawn as thin lines
+};
+
+struct SceneArrow {
+  Eigen::Vector3f from, to;
+};
+struct SceneLabel {
+  Eigen::Vector3f at;
+  std::string text;
+};
+struct SceneLegend {
+  std::string title, unit;
+  double low = 0, high = 1;
+};
+
+struct Scene {
+  SceneSurface surface;  // the boundary, or with a clip plane the faces of the cells kept
+  std::vector<std::array<Eigen::Vector3f, 2>> cage_lines;
+  std::vector<Eigen::Vector3f> cage_points;
+  std::vector<SceneArrow> arrows;  // loads
+  std::vector<Eigen::Vector3f> pins;
+  std::vector<SceneLabel> labels;     // drawn with a small dot and a halo
+  std::optional<SceneLegend> legend;  // with values: viridis between low and high
+  bool draw_surface = true;
+};
+
+struct PictureOptions {
+  int width = 1280, height = 800;
+  Eigen::Vector3d view_from{1.0, -1.6, 0.9};  // direction from the model's middle to the eye; z is up
+  double zoom = 1;                            // 1 frames the whole scene
+  bool wireframe = true;
+  bool contact_shadow = true;
+  bool light_theme = false;
+  int samples = 4;  // supersampling per axis pair; 1 = none
+};
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;       // top row first
+  std::vector<std::uint32_t> cell_ids;  // id buffer, 0xffffffff where nothing is; same layout
+};
+
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  /// @throws Error (unsupported) where no OpenGL 3.3 context can be had.
+  [[nodiscard]] virtual Picture render(const Scene& scene, const PictureOptions& options) = 0;
+};
+
+}  // namespace argil::sculpt

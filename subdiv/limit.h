@@ -1,0 +1,17 @@
+#pragma once
+// Limit positions of vertices (METHODS §1): (1/6, 4/6, 1/6)³ at regular interior vertices, Catmull–Clark's masks on
+// the boundary, and at an extraordinary interior vertex the left eigenvector, for eigenvalue 1, of its local
+// refinement matrix, computed once per neighbourhood type.
+
+#include "subdiv/solid.h"
+#include "subdiv/stencils.h"
+
+namespace argil::subdiv {
+
+/// Row v = the limit position of vertex v in the vertices of the same level (rows of dead ids are empty). Where a
+/// cell or boundary face at v is not a hexahedron or quadrilateral of one refinement, the row goes through one
+/// refinement more. Every row sums to one. Cost O(cell corners).
+/// @throws what refine() throws.
+[[nodiscard]] Stencils limit_stencils(const Solid& solid);
+
+}  // namespace argil::subdiv
