@@ -44,7 +44,9 @@ ARGIL_LANES_INLINE const std::uint32_t* packet_nodes(const PacketArguments& a, s
 ARGIL_LANES_INLINE FourDoubles* packet_slots(const PacketArguments& a, std::size_t packet) {
   return a.slots + packet * static_cast<std::size_t>(a.kind->node_count) * 3;
 }
-ARGIL_LANES_INLINE Lanes sum(const LaneVector& a) { return a.m[0] + a.m[1] + a.m[2]; }
+ARGIL_LANES_INLINE Lanes sum(const LaneVector& a) {
+  return a.m[0] + a.m[1] + a.m[2];
+}
 
 struct Energy {
   template <class Shape>
@@ -156,8 +158,7 @@ struct Product {
                   const Lanes pressure = load(t + 16) * (b.m[0] + b.m[4] + b.m[8]);
                   const LaneMatrix stress = {{shear * b.m[0] + pressure, shear * b.m[1] - tz, shear * b.m[2] + ty,
                                               shear * b.m[3] + tz, shear * b.m[4] + pressure, shear * b.m[5] - tx,
-                                              shear * b.m[6] - ty, shear * b.m[7] + tx,
-                                              shear * b.m[8] + pressure}};
+                                              shear * b.m[6] - ty, shear * b.m[7] + tx, shear * b.m[8] + pressure}};
                   stresses.add(static_cast<int>(p), product(product(rotation, stress), transposed(jacobian)));
                 });
       stresses.integrate();

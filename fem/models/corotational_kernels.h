@@ -23,11 +23,11 @@ struct PacketArguments {
   const FourDoubles* volumes = nullptr;    // [packet * point_count + point]
   const double* mu = nullptr;              // as in ElementBlock
   const double* lambda = nullptr;
-  const double* x = nullptr;       // 3 × nodes: positions, or directions for `product`
-  bool clamp_twist = false;        // `tangent`: make the Hessian positive semi-definite
-  FourDoubles* tangent = nullptr;  // [(packet * point_count + point) * k_tangent_entries]
-  FourDoubles* slots = nullptr;    // [(packet * node_count + node) * 3 + axis]
-  FourDoubles* energies = nullptr;   // [packet]
+  const double* x = nullptr;        // 3 × nodes: positions, or directions for `product`
+  bool clamp_twist = false;         // `tangent`: make the Hessian positive semi-definite
+  FourDoubles* tangent = nullptr;   // [(packet * point_count + point) * k_tangent_entries]
+  FourDoubles* slots = nullptr;     // [(packet * node_count + node) * 3 + axis]
+  FourDoubles* energies = nullptr;  // [packet]
 };
 
 using PacketKernel = void (*)(const PacketArguments&, std::size_t begin_packet, std::size_t end_packet);
@@ -47,8 +47,8 @@ enum class Instructions { best, baseline };
 /// Tangent of linear elasticity: the corotational one at rest, whatever x is.
 void linear_tangent(const PacketArguments& arguments, std::size_t begin_packet, std::size_t end_packet);
 
-/// The symmetric 3n×3n matrices of one packet's elements from its tangent, entry (row, column) at [row * 3n + column];
-/// at most 64 nodes.
+/// The symmetric 3n×3n matrices of one packet's elements from its tangent, entry (row, column) at [row * 3n +
+/// column]; at most 64 nodes.
 void packet_stiffness(const PacketArguments& arguments, std::size_t packet, FourDoubles* stiffness);
 
 }  // namespace argil::fem

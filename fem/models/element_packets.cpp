@@ -80,7 +80,9 @@ void ElementPackets::list_slots() {
   }
 }
 
-std::size_t ElementPackets::packet_count(std::size_t b) const { return packets_of(*parts_[b].block); }
+std::size_t ElementPackets::packet_count(std::size_t b) const {
+  return packets_of(*parts_[b].block);
+}
 
 PacketArguments ElementPackets::arguments(std::size_t b, FourDoubles* slots, FourDoubles* tangent,
                                           FourDoubles* energies) const {
@@ -100,8 +102,7 @@ PacketArguments ElementPackets::arguments(std::size_t b, FourDoubles* slots, Fou
 }
 
 void ElementPackets::for_packets(const Body& body) const {
-  parallel_for(chunks_.size(), 1,
-               [&](std::size_t i) { body(chunks_[i].block, chunks_[i].begin, chunks_[i].end); });
+  parallel_for(chunks_.size(), 1, [&](std::size_t i) { body(chunks_[i].block, chunks_[i].begin, chunks_[i].end); });
 }
 
 double ElementPackets::sum(const FourDoubles* energies) const {

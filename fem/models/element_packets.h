@@ -25,7 +25,8 @@ class ElementPackets {
   std::size_t node_count() const { return node_count_; }
   std::size_t packet_count(std::size_t b) const;
 
-  /// Arguments of block b with its own part of `slots`, `tangent`, `energies` (arrays over all blocks; may be null).
+  /// Arguments of block b with its own part of `slots`, `tangent`, `energies` (arrays over all blocks; may be
+  /// null).
   PacketArguments arguments(std::size_t b, FourDoubles* slots, FourDoubles* tangent, FourDoubles* energies) const;
   std::size_t slot_count() const { return slot_count_; }  // FourDoubles
   std::size_t point_packet_count() const { return point_packet_count_; }

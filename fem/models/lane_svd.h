@@ -84,8 +84,7 @@ ARGIL_LANES_INLINE void signed_svd(const LaneMatrix& f, LaneSvd& result) {
   const LaneVector from_v1 = plus_scaled(v[1], -dot(u[0], v[1]), u[0]);
   const LaneVector from_v2 = cross(v[2], u[0]);
   const auto prefer_v1 = dot(from_v1, from_v1) >= dot(from_v2, from_v2);
-  for (int i = 0; i < 3; ++i)
-    second.m[i] = line ? (prefer_v1 ? from_v1.m[i] : from_v2.m[i]) : second.m[i];
+  for (int i = 0; i < 3; ++i) second.m[i] = line ? (prefer_v1 ? from_v1.m[i] : from_v2.m[i]) : second.m[i];
   const Lanes inverse_second = 1.0 / square_root(dot(second, second));
   u[1] = scaled(second, inverse_second);
   u[2] = cross(u[0], u[1]);

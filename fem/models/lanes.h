@@ -1,7 +1,7 @@
 #pragma once
-// Four numbers a lane and 3×3 matrices of them, for kernels that treat four elements (or points) at once. Everything
-// is inlined into its caller, so that the same source serves the baseline and the AVX2 build of a kernel; no fused
-// multiply–add is written anywhere, so that both give the same bits.
+// Four numbers a lane and 3×3 matrices of them, for kernels that treat four elements (or points) at once.
+// Everything is inlined into its caller, so that the same source serves the baseline and the AVX2 build of a
+// kernel; no fused multiply–add is written anywhere, so that both give the same bits.
 
 #include <cstddef>
 #include <cstring>
@@ -33,13 +33,17 @@ struct LaneMatrix {  // row by row
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // never passed by value across a call: all is inlined
 
-ARGIL_LANES_INLINE Lanes broadcast(double x) { return Lanes{x, x, x, x}; }
+ARGIL_LANES_INLINE Lanes broadcast(double x) {
+  return Lanes{x, x, x, x};
+}
 ARGIL_LANES_INLINE Lanes load(const FourDoubles* from) {
   Lanes x;
   std::memcpy(&x, from, sizeof x);
   return x;
 }
-ARGIL_LANES_INLINE void store(FourDoubles* to, const Lanes& x) { std::memcpy(to, &x, sizeof x); }
+ARGIL_LANES_INLINE void store(FourDoubles* to, const Lanes& x) {
+  std::memcpy(to, &x, sizeof x);
+}
 
 ARGIL_LANES_INLINE Lanes square_root(const Lanes& x) {
 #if defined(__SSE2__)
@@ -55,15 +59,19 @@ ARGIL_LANES_INLINE Lanes square_root(const Lanes& x) {
   return Lanes{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 #endif
 }
-ARGIL_LANES_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
-ARGIL_LANES_INLINE Lanes larger(const Lanes& x, const Lanes& y) { return x > y ? x : y; }
+ARGIL_LANES_INLINE Lanes absolute(const Lanes& x) {
+  return x < 0.0 ? -x : x;
+}
+ARGIL_LANES_INLINE Lanes larger(const Lanes& x, const Lanes& y) {
+  return x > y ? x : y;
+}
 
 ARGIL_LANES_INLINE Lanes dot(const LaneVector& a, const LaneVector& b) {
   return a.m[0] * b.m[0] + a.m[1] * b.m[1] + a.m[2] * b.m[2];
 }
 ARGIL_LANES_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
-  return {{a.m[1] * b.m[2] - a.m[2] * b.m[1], a.m[2] * b.m[0] - a.m[0] * b.m[2],
-           a.m[0] * b.m[1] - a.m[1] * b.m[0]}};
+  return {
+      {a.m[1] * b.m[2] - a.m[2] * b.m[1], a.m[2] * b.m[0] - a.m[0] * b.m[2], a.m[0] * b.m[1] - a.m[1] * b.m[0]}};
 }
 ARGIL_LANES_INLINE LaneVector scaled(const LaneVector& a, const Lanes& s) {
   return {{a.m[0] * s, a.m[1] * s, a.m[2] * s}};

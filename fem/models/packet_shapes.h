@@ -28,8 +28,8 @@ ARGIL_LANES_INLINE void store_node(FourDoubles* slots, int node, const LaneVecto
   for (int axis = 0; axis < 3; ++axis) store(slots + 3 * node + axis, force.m[axis]);
 }
 
-/// 2×2×2 points, corners 4i + 2j + k. Slopes along an axis do not depend on that coordinate: four of them serve eight
-/// points.
+/// 2×2×2 points, corners 4i + 2j + k. Slopes along an axis do not depend on that coordinate: four of them serve
+/// eight points.
 class TrilinearShape {
  public:
   static constexpr int k_points = 8;
@@ -48,8 +48,7 @@ class TrilinearShape {
     for (int axis = 0; axis < 3; ++axis)
       for (int i = 0; i < 3; ++i) {
         Lanes edge[4];
-        for (int e = 0; e < 4; ++e)
-          edge[e] = corners_[corner(axis, e, 1)].m[i] - corners_[corner(axis, e, 0)].m[i];
+        for (int e = 0; e < 4; ++e) edge[e] = corners_[corner(axis, e, 1)].m[i] - corners_[corner(axis, e, 0)].m[i];
         for (int first = 0; first < 2; ++first) {  // along the second of the two remaining axes
           const Lanes slope = edge[2 * first + 1] - edge[2 * first], start = edge[2 * first];
           edge[2 * first] = start + k_near * slope;

@@ -33,8 +33,8 @@ void PacketTangent::element_tangents(const Visit& visit) const {
       parallel_for(last - first, 1, [&](std::size_t i) {
         packet_stiffness(arguments, first + i, matrices.data() + i * size * size);
       });
-      for (std::size_t element = first * k_lanes;
-           element < std::min(last * k_lanes, arguments.element_count); ++element) {
+      for (std::size_t element = first * k_lanes; element < std::min(last * k_lanes, arguments.element_count);
+           ++element) {
         const FourDoubles* from = matrices.data() + (element / k_lanes - first) * size * size;
         double* to = stiffness.data();
         for (std::size_t i = 0; i < size * size; ++i) to[i] = from[i].values[element % k_lanes];
