@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/element_bodies.h"
+#include "tests/fem/element_bodies.h"
 
 namespace argil::fem {
 namespace {
