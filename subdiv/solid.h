@@ -110,6 +110,7 @@ class Solid {
  private:
   friend class Transaction;
   friend class Builder;
+  friend class Validator;
   friend struct SolidTester;
 
   static constexpr std::uint32_t k_none = 0xffffffffU;
