@@ -10,7 +10,7 @@ namespace argil::view {
 namespace {
 
 constexpr int k_sides = 20;
-constexpr float k_shaft_radius = 1.9F, k_cone_radius = 7.0F, k_cone_length = 18.0F;  // pixels
+constexpr float k_shaft_radius = 2.1F, k_cone_radius = 7.6F, k_cone_length = 20.0F;  // pixels
 
 }  // namespace
 

@@ -28,12 +28,12 @@ inline constexpr Theme k_dark_theme{
     colour(0x2B2F36), colour(0x171A1E),       colour(0xE6E8EB),       colour(0xA9AEB6),       colour(0x14171A, 0.85F),
     colour(0x8FB6E0, 0.62F), colour(0x93BDEB), colour(0x1A1D21),       colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F),
     colour(0xE0B79A, 0.55F), colour(0xF0A93C), colour(0x2A1604, 0.85F), colour(0x5BD0CB),       colour(0x0E2A2A, 0.9F),
-    0.62F};
+    0.85F};
 inline constexpr Theme k_light_theme{
     colour(0xF7F8FA), colour(0xDCE0E5),       colour(0x1E2126),       colour(0x5A616B),       colour(0xFFFFFF, 0.85F),
     colour(0x3F6FA6, 0.65F), colour(0x3F78B8), colour(0xFFFFFF),       colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F),
     colour(0x7A4326, 0.60F), colour(0xE8961E), colour(0x3A1D02, 0.85F), colour(0x139A94),       colour(0xFFFFFF, 0.9F),
-    0.34F};
+    0.40F};
 
 inline constexpr int k_viridis_size = 11;
 /// Eleven samples of the map viridis, a tenth apart; colours between them are linear.

@@ -15,6 +15,7 @@ namespace {
 
 constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
 constexpr float k_bar_height = 250;
+constexpr int k_most_ticks = 6;
 
 /// The unit as written and how many of it one of the legend's is.
 struct Shown {
@@ -71,7 +72,7 @@ std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
 
 double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width) {
   float text = 0;
-  for (const Tick& tick : legend_ticks(legend, 5)) text = std::max(text, font.width(tick.text, k_tick_size * pixel));
+  for (const Tick& tick : legend_ticks(legend, k_most_ticks)) text = std::max(text, font.width(tick.text, k_tick_size * pixel));
   const float beside = text + (k_right + k_bar_width + k_gap + 20) * pixel;
   return static_cast<double>(beside) / width;
 }
@@ -84,9 +85,9 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
   canvas.bar(left, top, right - left, tall, 3 * pixel, [](float y) { return viridis(1 - y); });
   canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
 
-  const int most = std::max(1, static_cast<int>(tall / (42 * pixel)));
+  const int most = std::max(1, static_cast<int>(tall / (34 * pixel)));
   const double range = legend.high - legend.low;
-  for (const Tick& tick : legend_ticks(legend, std::min(most, 5))) {
+  for (const Tick& tick : legend_ticks(legend, std::min(most, k_most_ticks))) {
     const double part = range > 0 ? (tick.value - legend.low) / range : 0.5;
     const float y = top + tall * static_cast<float>(1 - part);
     canvas.text(left - k_gap * pixel, y + 0.36F * k_tick_size * pixel, k_tick_size * pixel, tick.text,
@@ -97,13 +98,18 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
 }
 
 void draw_label(Canvas& canvas, const Eigen::Vector2f& at, const std::string& line, const Theme& theme, float pixel,
-                int width) {
+                int width, bool hidden) {
   const float size = 12.5F * pixel;
-  canvas.disc(at.x(), at.y(), 3.4F * pixel, theme.halo);
-  canvas.disc(at.x(), at.y(), 2.2F * pixel, theme.text);
+  Colour ink = theme.text, halo = theme.halo;
+  if (hidden) {
+    ink.alpha *= 0.35F;
+    halo.alpha *= 0.25F;
+  }
+  canvas.disc(at.x(), at.y(), 3.4F * pixel, halo);
+  canvas.disc(at.x(), at.y(), 2.2F * pixel, ink);
   const bool to_the_left = at.x() + 8 * pixel + canvas.font().width(line, size) > static_cast<float>(width) - 4 * pixel;
-  canvas.text(at.x() + (to_the_left ? -7 : 7) * pixel, at.y() - 4 * pixel, size, line, theme.text,
-              to_the_left ? Align::right : Align::left, theme.halo);
+  canvas.text(at.x() + (to_the_left ? -7 : 7) * pixel, at.y() - 4 * pixel, size, line, ink,
+              to_the_left ? Align::right : Align::left, halo);
 }
 
 }  // namespace argil::view

@@ -25,7 +25,8 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
                  int height);
 
 /// A dot at the place and the text beside it; near the right side of the picture the text stands left of its dot.
+/// Of a hidden place only a shade is drawn.
 void draw_label(Canvas& canvas, const Eigen::Vector2f& at, const std::string& line, const Theme& theme, float pixel,
-                int width);
+                int width, bool hidden);
 
 }  // namespace argil::view

@@ -86,13 +86,19 @@ class OffscreenRenderer final : public sculpt::Renderer {
     picture.width = options.width;
     picture.height = options.height;
     draw(camera, sampling, picture);
-    draw_ids(camera, sampling, picture);
+    picture.cell_ids = draw_words(camera, sampling, &ScenePainter::paint_ids);
 
     Canvas canvas(picture, font_);
     const Theme& theme = options.light_theme ? k_light_theme : k_dark_theme;
-    for (const sculpt::SceneLabel& label : scene.labels)
-      draw_label(canvas, camera.pixel(place(label.at), picture.width, picture.height), label.text, theme, pixel,
-                 picture.width);
+    if (!scene.labels.empty()) {
+      const std::vector<std::uint32_t> depths = draw_words(camera, sampling, &ScenePainter::paint_depth);
+      for (const sculpt::SceneLabel& label : scene.labels) {
+        const Eigen::Vector3f at = place(label.at);
+        const Eigen::Vector2f pixel_at = camera.pixel(at, picture.width, picture.height);
+        draw_label(canvas, pixel_at, label.text, theme, pixel, picture.width,
+                   is_hidden(camera, at, pixel_at, depths, sampling));
+      }
+    }
     if (has_legend) draw_legend(canvas, *scene.legend, theme, pixel, picture.width, picture.height);
     return picture;
   }
@@ -150,27 +156,48 @@ class OffscreenRenderer final : public sculpt::Renderer {
     pixel[3] = 255;
   }
 
-  void draw_ids(const Camera& camera, Sampling sampling, sculpt::Picture& picture) {
+  using PaintBytes = void (ScenePainter::*)(const Camera&, const Sampling&, int, int) const;
+
+  /// Draws without antialiasing and reads each pixel's four bytes as a number, lowest byte first; top row first.
+  std::vector<std::uint32_t> draw_words(const Camera& camera, Sampling sampling, PaintBytes paint) {
     sampling.factor = 1;
     const int rows = std::clamp(k_samples_at_once / sampling.width, 1, sampling.height);
     const Target strip(context_.gl(), sampling.width, rows, true);
-    picture.cell_ids.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(sampling.width) *
+                                     static_cast<std::size_t>(sampling.height));
     std::vector<std::uint8_t> bytes;
     for (int bottom = 0; bottom < sampling.height; bottom += rows) {
       const int height = std::min(rows, sampling.height - bottom);
       strip.bind();
-      painter_.paint_ids(camera, sampling, 0, bottom);
+      (painter_.*paint)(camera, sampling, 0, bottom);
       strip.read(sampling.width, height, bytes);
-      for (int row = 0; row < height; ++row)
-        for (int x = 0; x < sampling.width; ++x) {
-          const std::uint8_t* b = &bytes[4 * static_cast<std::size_t>(row * sampling.width + x)];
-          const auto target = static_cast<std::size_t>(picture.height - 1 - bottom - row) *
-                                  static_cast<std::size_t>(picture.width) +
-                              static_cast<std::size_t>(x);
-          picture.cell_ids[target] = static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
-                                     static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
-        }
+      for (int row = 0; row < height; ++row) {
+        std::uint32_t* target = &words[static_cast<std::size_t>(sampling.height - 1 - bottom - row) *
+                                       static_cast<std::size_t>(sampling.width)];
+        const std::uint8_t* b = &bytes[4 * static_cast<std::size_t>(row * sampling.width)];
+        for (int x = 0; x < sampling.width; ++x, b += 4)
+          *target++ = static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
+                      static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+      }
     }
+    return words;
+  }
+
+  /// Whether the surface hides a place: it lies nearer in all pixels about it, by more than a hundredth of the scene.
+  static bool is_hidden(const Camera& camera, const Eigen::Vector3f& at, const Eigen::Vector2f& pixel,
+                        const std::vector<std::uint32_t>& depths, const Sampling& sampling) {
+    const Eigen::Vector3f nearer = at + 0.01F * (camera.eye - at).normalized();
+    const Eigen::Vector4f clip = camera.clip_from_world * nearer.homogeneous();
+    const float depth = 0.5F + 0.5F * clip.z() / clip.w();
+    const int x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
+    for (int j = y - 1; j <= y + 1; ++j)
+      for (int i = x - 1; i <= x + 1; ++i) {
+        if (i < 0 || j < 0 || i >= sampling.width || j >= sampling.height) return false;
+        const std::uint32_t word = depths[static_cast<std::size_t>(j) * static_cast<std::size_t>(sampling.width) +
+                                          static_cast<std::size_t>(i)];
+        if (static_cast<float>(word & 0xffffffU) / 16777215.0F >= depth) return false;
+      }
+    return true;
   }
 
   OsmesaContext context_;

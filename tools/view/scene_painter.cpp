@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
-constexpr float k_hidden = 0.28F;  // what is left of marks and arrows behind the surface
+constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
+constexpr float k_hidden_pin = 0.55F;
 
 using Line = std::array<Eigen::Vector3f, 2>;
 
@@ -225,11 +226,10 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   hidden_cage.alpha *= k_hidden;
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, false);
-  draw_marks(cage_points_, camera, sampling, 0, 3.6F, theme.cage_point, theme.cage_ring, 0.45F * k_hidden);
-  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden);
+  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, false);
-  draw_marks(cage_points_, camera, sampling, 0, 3.6F, theme.cage_point, theme.cage_ring, 1);
+  draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);
   gl.Disable(GL_BLEND);
@@ -237,6 +237,15 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
 }
 
 void ScenePainter::paint_ids(const Camera& camera, const Sampling& sampling, int x, int y) const {
+  paint_bytes(id_program_, camera, sampling, x, y);
+}
+
+void ScenePainter::paint_depth(const Camera& camera, const Sampling& sampling, int x, int y) const {
+  paint_bytes(depth_program_, camera, sampling, x, y);
+}
+
+void ScenePainter::paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x,
+                               int y) const {
   const Gl& gl = *gl_;
   gl.Viewport(-x, -y, sampling.width, sampling.height);
   gl.DepthMask(GL_TRUE);
@@ -246,7 +255,7 @@ void ScenePainter::paint_ids(const Camera& camera, const Sampling& sampling, int
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!draws_surface_) return;
   gl.Enable(GL_DEPTH_TEST);
-  draw_surface(id_program_, camera);
+  draw_surface(program, camera);
 }
 
 }  // namespace argil::view

@@ -27,8 +27,11 @@ class ScenePainter {
   void paint(const Camera& camera, const Sampling& sampling, int x, int y) const;
   /// The same part with the surface's cell ids as bytes, 255 where nothing is; no antialiasing, factor 1.
   void paint_ids(const Camera& camera, const Sampling& sampling, int x, int y) const;
+  /// The same part with the surface's depth as three bytes, lowest first; 255 where nothing is.
+  void paint_depth(const Camera& camera, const Sampling& sampling, int x, int y) const;
 
  private:
+  void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
   void draw_surface(const Program& program, const Camera& camera) const;
   void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
                   const Colour& tint, bool fades_when_dense) const;

@@ -36,12 +36,13 @@ layout(location = 3) in uvec2 cell_and_cut;
 uniform mat4 clip_from_world;
 uniform mat3 view_from_world;
 uniform vec3 eye;
-out vec3 view_normal, to_eye;
+out vec3 view_normal, to_eye, to_lamp;
 out float value, openness;
 flat out uint cell;
 flat out uint cut;
 void main() {
   view_normal = view_from_world * normal;
+  to_lamp = vec3(-1.5, 2.3, 2.5) - view_from_world * position;
   to_eye = view_from_world * (eye - position);
   value = value_and_openness.x;
   openness = value_and_openness.y;
@@ -50,11 +51,11 @@ void main() {
   gl_Position = clip_from_world * vec4(position, 1.0);
 })";
 
-/// Clay: a ramp over light from above left, a soft highlight, a rim, and a bounce from the ground; fields keep their
+/// Clay: a ramp over the light of a near lamp above left (so that flat faces are not of one colour), a soft highlight, a rim, and a bounce from the ground; fields keep their
 /// colours and take only a part of the light.
 inline constexpr const char* k_surface_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye;
+in vec3 view_normal, to_eye, to_lamp;
 in float value, openness;
 flat in uint cell;
 flat in uint cut;
@@ -64,17 +65,17 @@ uniform vec3 field_colours[11];
 out vec4 colour;
 
 vec3 ramp(float t, bool lighter) {
-  vec3 deep = vec3(0.185, 0.085, 0.050), shade = vec3(0.455, 0.225, 0.125), clay = vec3(0.800, 0.485, 0.310),
-       light = vec3(0.945, 0.715, 0.550);
+  vec3 deep = vec3(0.150, 0.066, 0.038), shade = vec3(0.400, 0.190, 0.105), clay = vec3(0.790, 0.470, 0.295),
+       light = vec3(0.940, 0.715, 0.560);
   if (lighter) {
     deep = vec3(0.300, 0.195, 0.140);
     shade = vec3(0.585, 0.425, 0.320);
     clay = vec3(0.885, 0.720, 0.580);
     light = vec3(0.985, 0.885, 0.790);
   }
-  vec3 c = mix(deep, shade, smoothstep(0.0, 0.38, t));
-  c = mix(c, clay, smoothstep(0.25, 0.72, t));
-  return mix(c, light, smoothstep(0.70, 1.02, t));
+  vec3 c = mix(deep, shade, smoothstep(0.0, 0.40, t));
+  c = mix(c, clay, smoothstep(0.24, 0.80, t));
+  return mix(c, light, smoothstep(0.76, 1.04, t));
 }
 
 vec3 field_colour(float t) {
@@ -86,7 +87,7 @@ vec3 field_colour(float t) {
 void main() {
   vec3 n = normalize(view_normal), v = normalize(to_eye);
   if (dot(n, v) < 0.0 && !gl_FrontFacing) n = -n;
-  vec3 key = normalize(vec3(-0.42, 0.66, 0.62)), fill = normalize(vec3(0.85, 0.10, 0.45));
+  vec3 key = normalize(to_lamp), fill = normalize(vec3(0.85, 0.10, 0.45));
   float open = mix(0.30, 1.0, openness);
   float facing = clamp(dot(n, v), 0.0, 1.0);
   float lit = 0.5 + 0.5 * dot(n, key);
@@ -101,14 +102,14 @@ void main() {
   float t = lit * mix(0.42, 1.0, openness) + 0.07 * max(dot(n, fill), 0.0) * open;
   vec3 c = ramp(t, cut != 0u);
   c += vec3(1.00, 0.90, 0.78) * 0.13 * gloss * open;
-  c += mix(vec3(0.36, 0.20, 0.13), vec3(0.55, 0.42, 0.36), 0.5 + 0.5 * n.y) * 0.42 * rim * open;
+  c += mix(vec3(0.36, 0.20, 0.13), vec3(0.55, 0.42, 0.36), 0.5 + 0.5 * n.y) * 0.34 * rim * open;
   c += vec3(0.10, 0.050, 0.028) * max(-n.y, 0.0) * open;
   colour = vec4(c, 1.0);
 })";
 
 inline constexpr const char* k_id_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye;
+in vec3 view_normal, to_eye, to_lamp;
 in float value, openness;
 flat in uint cell;
 flat in uint cut;
@@ -121,7 +122,7 @@ void main() {
 /// Depth along a direction as three bytes, for the openness of vertices.
 inline constexpr const char* k_depth_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye;
+in vec3 view_normal, to_eye, to_lamp;
 in float value, openness;
 flat in uint cell;
 flat in uint cut;
@@ -183,7 +184,7 @@ uniform float opacity;
 out vec4 colour;
 void main() {
   vec2 edge = smoothstep(vec2(0.0), vec2(0.12), across) * smoothstep(vec2(0.0), vec2(0.12), 1.0 - across);
-  float shade = 1.0 - (1.0 - 0.75 * texture(close, across).r) * (1.0 - 0.95 * texture(wide, across).g);
+  float shade = 1.0 - (1.0 - 0.80 * texture(close, across).r) * (1.0 - 1.0 * texture(wide, across).g);
   colour = vec4(0.02, 0.02, 0.025, opacity * shade * edge.x * edge.y);
 })";
 
