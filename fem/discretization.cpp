@@ -7,6 +7,7 @@
 #include "fem/discretization/tricubic_choice.h"
 #include "fem/parallel.h"
 #include "fmt/format.h"
+#include "subdiv/build.h"
 #include "subdiv/error.h"
 #include "subdiv/limit.h"
 #include "subdiv/radial_edge.h"
