@@ -1,6 +1,6 @@
 #include "fem/models/corotational_kernels.h"
 
-#include "fem/models/lane_svd.h"
+#include "fem/models/lane_polar.h"
 #include "fem/models/packet_shapes.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -48,6 +48,12 @@ ARGIL_LANES_INLINE Lanes sum(const LaneVector& a) {
   return a.m[0] + a.m[1] + a.m[2];
 }
 
+ARGIL_LANES_INLINE Lanes inner(const LaneMatrix& a, const LaneMatrix& b) {
+  Lanes result = a.m[0] * b.m[0];
+  for (int i = 1; i < 9; ++i) result += a.m[i] * b.m[i];
+  return result;
+}
+
 struct Energy {
   template <class Shape>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
@@ -59,12 +65,12 @@ struct Energy {
       Lanes total = broadcast(0);
       at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
         const PointMaterial m = material(a, packet, p, points);
-        LaneSvd svd;
-        signed_svd(f, svd);
-        const Lanes* s = svd.sigma.m;
-        const LaneVector stretch = {{s[0] - 1.0, s[1] - 1.0, s[2] - 1.0}};
-        const Lanes trace = sum(stretch);
-        total += load(a.volumes + index) * (m.mu * dot(stretch, stretch) + 0.5 * m.lambda * (trace * trace));
+        LaneMatrix rotation;
+        nearest_rotation(f, rotation);
+        const Lanes trace = inner(rotation, f) - 3.0;
+        Lanes square = broadcast(0);
+        for (int i = 0; i < 9; ++i) square += (f.m[i] - rotation.m[i]) * (f.m[i] - rotation.m[i]);
+        total += load(a.volumes + index) * (m.mu * square + 0.5 * m.lambda * (trace * trace));
       });
       store(a.energies + packet, total);
     }
@@ -83,12 +89,11 @@ struct Forces {
       at_points(a, packet, shape,
                 [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& f) {
                   const PointMaterial m = material(a, packet, p, points);
-                  LaneSvd svd;
-                  signed_svd(f, svd);
-                  const LaneMatrix rotation = outer_sum(svd.u, svd.v);
+                  LaneMatrix rotation;
+                  nearest_rotation(f, rotation);
                   const Lanes volume = load(a.volumes + index);
                   const Lanes shear = -2.0 * m.mu * volume;
-                  const Lanes pressure = -m.lambda * volume * (sum(svd.sigma) - 3.0);
+                  const Lanes pressure = -m.lambda * volume * (inner(rotation, f) - 3.0);
                   LaneMatrix stress;
                   for (int i = 0; i < 9; ++i)
                     stress.m[i] = shear * (f.m[i] - rotation.m[i]) + pressure * rotation.m[i];
