@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "sculpt/commands/commands.h"
+#include "sculpt/near_names.h"
+#include "sculpt/region.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -122,7 +124,7 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
       if (i >= tokens.size()) fail_at_end(line, fmt::format("{}: {} is missing ({})", command.name, parameter.name, parameter.help));
       Argument argument;
       argument.at = tokens[i];
-      argument.expression = std::make_shared<const Expression>(parse_expression(line, io::expression_tokens(line, i)));
+      argument.expression = std::make_shared<const Expression>(Expression::parse(io::expression_tokens(line, i), line, variable_table()));
       while (i < tokens.size() && !(tokens[i].kind == io::TokenKind::word && tokens[i].text == "where")) ++i;
       arguments.set(parameter.name, std::move(argument));
       continue;
@@ -160,7 +162,7 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
     argument.at = name;
     if (parameter->type == ArgumentType::expression) {
       argument.expression = std::make_shared<const Expression>(
-          parse_expression(line, {tokens.begin() + static_cast<std::ptrdiff_t>(i), tokens.end()}));
+          Expression::parse(std::span(tokens).subspan(i), line, variable_table()));
       i = tokens.size();
     } else if (!parameter->flag) {
       for (int k = 0; k < parameter->count; ++k) {
@@ -202,10 +204,9 @@ const Command& find_command(const io::SessionLine& line) {
   if (found != table.end() && name.kind == io::TokenKind::word) return *found;
   std::vector<std::string> names;
   for (const Command& c : table) names.push_back(c.name);
-  const std::string near = nearest_name(name.text, names);
   throw Error(ErrorCode::not_found,
-              fmt::format("'{}' is not a command{}. `argil help` lists them all", name.text,
-                          near.empty() ? "" : fmt::format("; did you mean '{}'?", near)),
+              fmt::format("'{}' is not a command{}; `argil help` lists them all", name.text,
+                          near_names_hint(name.text, names)),
               io::place_of(line, name));
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fem/loads.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/hash.h"
 #include "subdiv/error.h"
 
@@ -42,6 +42,14 @@ const char* word(ElementType type) {
   return "";
 }
 
+namespace {
+
+fem::NodalFields nodal_fields(const Fields& f) {
+  return {f[FieldName::young_modulus], f[FieldName::poisson_ratio], f[FieldName::density], f[FieldName::damping]};
+}
+
+}  // namespace
+
 // Each derived thing keeps what it was made of, so that it is made again exactly when that has changed.
 struct Document::Derived {
   std::uint64_t topology = 0;
@@ -55,6 +63,7 @@ struct Document::Derived {
   int split = -1;
   std::unique_ptr<fem::Discretization> discretization;
   std::unique_ptr<subdiv::Stencils> transposed;
+  std::unique_ptr<fem::ShownElements> shown_elements;
 
   std::string model_name;
   std::unique_ptr<fem::ForceModel> model;
@@ -71,6 +80,7 @@ struct Document::Derived {
     loads.reset();
     model.reset();
     transposed.reset();
+    shown_elements.reset();
     discretization.reset();
   }
 };
@@ -110,12 +120,11 @@ const fem::Discretization& Document::discretization() const {
   const bool same_shape =
       d.discretization && d.rest == state_.rest && d.space == state_.space && d.split == state_.split;
   if (same_shape && d.fields == state_.fields) return *d.discretization;
-  const Fields& f = *state_.fields;
-  const fem::NodalFields nodal{f[FieldName::young_modulus], f[FieldName::poisson_ratio], f[FieldName::density],
-                               f[FieldName::damping]};
+  const fem::NodalFields nodal = nodal_fields(*state_.fields);
   d.integrator.reset();
   d.loads.reset();
   d.model.reset();
+  d.shown_elements.reset();
   if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
     d.drop_from_discretization();
     d.discretization = std::make_unique<fem::Discretization>(
@@ -148,6 +157,7 @@ fem::System Document::system() const {
   system.rows = &d.discretization->nodes.rows;
   system.rows_transposed = d.transposed.get();
   system.model = &force_model;
+  system.rest_nodes = &d.discretization->rest_nodes;
   system.mass = &d.discretization->mass;
   system.damping = &d.discretization->damping;
   system.fixed.assign(solid().vertex_capacity(), 0);
@@ -168,11 +178,30 @@ fem::Integrator& Document::integrator() const {
   return *d.integrator;
 }
 
+const fem::Loads& Document::loads() const {
+  Derived& d = *derived_;
+  (void)discretization();
+  if (!d.loads || d.load_pins != state_.pins || d.applied != state_.loads) {
+    d.loads = std::make_unique<fem::Loads>(document_loads(*this));
+    d.load_pins = state_.pins;
+    d.applied = state_.loads;
+  }
+  return *d.loads;
+}
+
 const subdiv::BoundarySurface& Document::surface() const {
   const subdiv::Refinement& refined = refinement();
   if (!derived_->surface)
     derived_->surface = std::make_unique<subdiv::BoundarySurface>(subdiv::boundary_surface(refined.solid()));
   return *derived_->surface;
+}
+
+const fem::ShownElements& Document::shown_elements() const {
+  (void)discretization();
+  if (!derived_->shown_elements)
+    derived_->shown_elements = std::make_unique<fem::ShownElements>(refinement().solid(), surface_nodes(rest()),
+                                                                    nodal_fields(*state_.fields));
+  return *derived_->shown_elements;
 }
 
 Eigen::Matrix3Xd Document::surface_nodes(const Eigen::Matrix3Xd& control_points) const {
@@ -186,30 +215,31 @@ Eigen::Matrix3Xd Document::surface_nodes(const Eigen::Matrix3Xd& control_points)
 
 std::uint64_t Document::state_hash() const {
   const State& s = state_;
-  StateHash hash;
+  Hash hash;
+  const auto add_matrix = [&](const auto& m) { hash.add(std::span<const double>(m.data(), static_cast<std::size_t>(m.size()))); };
   hash.add(solid().topology_hash());
-  hash.add(*s.rest);
+  add_matrix(*s.rest);
   const fem::BodyState& motion = *s.motion;
-  hash.add(motion.positions);
-  hash.add(motion.velocities);
-  hash.add(motion.previous_positions);
-  hash.add(motion.previous_velocities);
+  add_matrix(motion.positions);
+  add_matrix(motion.velocities);
+  add_matrix(motion.previous_positions);
+  add_matrix(motion.previous_velocities);
   hash.add(motion.previous_step);
   hash.add(motion.time);
-  for (const auto& values : s.fields->values) hash.add(values);
+  for (const auto& values : s.fields->values) add_matrix(values);
   hash.add(std::uint64_t{s.pins->control_points.size()});
   for (const std::uint32_t v : s.pins->control_points) hash.add(std::uint64_t{v});
   hash.add(std::uint64_t{s.pins->nodes.size()});
   for (const SoftPin& pin : s.pins->nodes) {
     hash.add(std::uint64_t{pin.node});
     hash.add(pin.stiffness);
-    hash.add(Eigen::MatrixXd(pin.target));
+    add_matrix(pin.target);
   }
-  hash.add(Eigen::MatrixXd(s.loads->gravity));
+  add_matrix(s.loads->gravity);
   hash.add(std::uint64_t{s.loads->forces.size()});
   for (const AppliedForce& force : s.loads->forces) {
-    hash.add(Eigen::MatrixXd(force.force));
-    hash.add(Eigen::MatrixXd(force.point));
+    add_matrix(force.force);
+    add_matrix(force.point);
     hash.add(std::uint64_t{force.faces.size()});
     for (const std::uint32_t f : force.faces) hash.add(std::uint64_t{f});
   }
@@ -221,22 +251,22 @@ std::uint64_t Document::state_hash() const {
   add_selection(*s.selection);
   hash.add(std::uint64_t{s.sets->size()});
   for (const auto& [name, set] : *s.sets) {
-    hash.add(name);
+    hash.add(std::string_view(name));
     add_selection(set);
   }
   hash.add(static_cast<std::uint64_t>(s.level));
   hash.add(static_cast<std::uint64_t>(s.space));
   hash.add(static_cast<std::uint64_t>(s.split));
-  hash.add(s.model);
+  hash.add(std::string_view(s.model));
   hash.add(static_cast<std::uint64_t>(s.method));
   hash.add(static_cast<std::uint64_t>(s.newton_cap));
   hash.add(s.time_step);
   hash.add(s.tick_carry);
-  hash.add(s.tool.name);
+  hash.add(std::string_view(s.tool.name));
   hash.add(s.tool.radius);
   hash.add(s.tool.strength);
   hash.add(s.tool.largest_force);
-  hash.add(s.tool.falloff);
+  hash.add(std::string_view(s.tool.falloff));
   return hash.value();
 }
 

@@ -4,7 +4,7 @@
 // topology alone is edited in place, by transactions whose deltas undo keeps.
 
 #include <Eigen/Core>
-#include <functional>
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +12,7 @@
 
 #include "fem/discretization.h"
 #include "fem/dynamics/integrator.h"
+#include "fem/measure/shown_elements.h"
 #include "subdiv/boundary.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
@@ -125,6 +126,7 @@ class Document {
   /// Loads that do not come from a tool, in control points, with the soft pins as springs.
   const fem::Loads& loads() const;
   const subdiv::BoundarySurface& surface() const;  // of the finest level
+  const fem::ShownElements& shown_elements() const;  // for strain and stress
   /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x vertices.
   Eigen::Matrix3Xd surface_nodes(const Eigen::Matrix3Xd& control_points) const;
 

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/loads.h"
 #include "fem/measure/energy.h"
-#include "fem/measure/strain.h"
-#include "fem/measure/stress.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/near_names.h"
 #include "sculpt/region.h"
 #include "subdiv/error.h"
@@ -21,19 +19,11 @@ Eigen::Matrix3Xd present_nodes(const Document& document) {
   return subdiv::apply(document.discretization().nodes.rows, document.positions());
 }
 
-// Values of the node table, as the vertices of the finest level see them.
-Eigen::VectorXd at_vertices(const Document& document, const Eigen::VectorXd& table_values) {
-  const auto& node = document.discretization().surface_node_from_vertex;
-  Eigen::VectorXd values(static_cast<Eigen::Index>(node.size()));
-  for (std::size_t v = 0; v < node.size(); ++v) values[static_cast<Eigen::Index>(v)] = table_values[node[v]];
-  return values;
+Eigen::VectorXd strain(const Document& document) {
+  return document.shown_elements().equivalent_strain(document.surface_nodes(document.positions()));
 }
-
-Eigen::VectorXd nodal_strain(const Document& document) {
-  return fem::nodal_equivalent_strain(document.discretization(), present_nodes(document));
-}
-Eigen::VectorXd nodal_stress(const Document& document) {
-  return fem::nodal_von_mises_stress(document.discretization(), present_nodes(document));
+Eigen::VectorXd stress(const Document& document) {
+  return document.shown_elements().von_mises_stress(document.surface_nodes(document.positions()));
 }
 
 double axis_of(const std::string& name, const Eigen::Vector3d& v) {
@@ -118,7 +108,7 @@ double measure(const Document& document, const MeasureQuery& query) {
     throw Error(ErrorCode::bad_input, fmt::format("{} is of the whole solid; leave out `where`", name));
   const fem::BodyState& motion = *document.state().motion;
   const auto elastic = [&] { return document.model().energy(present_nodes(document)); };
-  const auto kinetic = [&] { return fem::kinetic_energy(document.system(), motion.velocities); };
+  const auto kinetic = [&] { return fem::energy(document.system(), motion).kinetic; };
 
   if (name == "volume") return fem::volume(document.discretization(), present_nodes(document));
   if (name == "mass") return document.discretization().total_mass;
@@ -147,15 +137,15 @@ double measure(const Document& document, const MeasureQuery& query) {
     return largest;
   }
   if (name.starts_with("strain"))
-    return over_nodes(document, query, at_vertices(document, nodal_strain(document)), name == "strain_mean");
+    return over_nodes(document, query, strain(document), name == "strain_mean");
   if (name.starts_with("stress"))
-    return over_nodes(document, query, at_vertices(document, nodal_stress(document)), name == "stress_mean");
+    return over_nodes(document, query, stress(document), name == "stress_mean");
   if (name.starts_with("reaction")) return axis_of(name, total_reaction(document, query.where));
-  if (name.starts_with("momentum")) return axis_of(name, fem::linear_momentum(document.system(), motion.velocities));
+  if (name.starts_with("momentum")) return axis_of(name, fem::momentum(document.system(), motion).linear);
   const fem::MaterialPoint point = material_point(document, *query.at);
-  const Eigen::Vector3d now = fem::evaluate(point, document.positions());
+  const Eigen::Vector3d now = fem::position(point.stencil, document.positions());
   if (name.starts_with("position")) return axis_of(name, now);
-  return axis_of(name, now - fem::evaluate(point, document.rest()));
+  return axis_of(name, now - fem::position(point.stencil, document.rest()));
 }
 
 std::vector<std::string> shown_field_names() {
@@ -165,8 +155,8 @@ std::vector<std::string> shown_field_names() {
 }
 
 ShownField shown_field(const Document& document, const std::string& name) {
-  if (name == "strain") return {at_vertices(document, nodal_strain(document)), "strain", "%"};
-  if (name == "stress") return {at_vertices(document, nodal_stress(document)), "von Mises stress", "Pa"};
+  if (name == "strain") return {strain(document), "strain", "%"};
+  if (name == "stress") return {stress(document), "von Mises stress", "Pa"};
   if (name == "displacement")
     return {(document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
             "displacement", "m"};

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/loads.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/measures.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"
@@ -48,7 +48,7 @@ void add_marks(Scene& scene, const Document& document, double size) {
     if (!(force.force.norm() > 0)) continue;
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     if (force.faces.empty()) {
-      at = fem::evaluate(material_point(document, force.point), document.positions());
+      at = fem::position(material_point(document, force.point).stencil, document.positions());
     } else {
       std::size_t count = 0;
       for (const std::uint32_t f : force.faces)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/loads.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
@@ -58,7 +58,7 @@ void paint(Session& session, const Arguments& arguments) {
   if (sets) check_range(info, arguments.number("value"), "");
   const Document& document = session.document();
   const Eigen::Matrix3Xd nodes = subdiv::apply(document.refinement().stencils.back(), document.positions());
-  const fem::Falloff falloff = fem::falloff_by_word(arguments.word("falloff", "smooth"));
+  const fem::Falloff falloff = falloff_by_word(arguments.word("falloff", "smooth"));
   State next = document.state();
   auto fields = std::make_shared<Fields>(*next.fields);
   Eigen::VectorXd& values = (*fields)[info.name];
@@ -66,7 +66,7 @@ void paint(Session& session, const Arguments& arguments) {
   for (const std::uint32_t node : covered_nodes(session, arguments)) {
     double weight = info.name == FieldName::mask ? 1 : 1 - (*fields)[FieldName::mask][node];
     if (arguments.has("at"))
-      weight *= fem::falloff_weight(falloff, (nodes.col(node) - arguments.vector("at")).norm() / arguments.number("radius"));
+      weight *= falloff_weight(falloff, (nodes.col(node) - arguments.vector("at")).norm() / arguments.number("radius"));
     if (weight <= 0) continue;
     ++touched;
     values[node] = scales ? values[node] * std::pow(arguments.number("scale"), weight)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/loads.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/region.h"
 #include "sculpt/simulation.h"
 #include "subdiv/error.h"

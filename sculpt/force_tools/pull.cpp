@@ -1,12 +1,26 @@
 #include "sculpt/force_tools/pull.h"
 
-#include "fem/loads.h"
+#include <fmt/format.h>
+
+#include "sculpt/document_loads.h"
+#include "subdiv/error.h"
 
 namespace argil::sculpt {
 
 PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vector3d& at)
-    : grip_(grip_on_surface(document, at, tool.radius, fem::falloff_by_word(tool.falloff))), largest_force_(tool.largest_force) {
-  grip_.stiffness = tool.strength;
+    : largest_force_(tool.largest_force) {
+  const fem::Discretization& d = document.discretization();
+  const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, document.positions());
+  const fem::Brush brush{at, tool.radius, falloff_by_word(tool.falloff)};
+  const fem::PointStencil touched =
+      fem::brush_stencil(d, fem::whole_surface(d, document.refinement().solid()), nodes, brush);
+  grip_ = fem::anchor_spring(touched, at, tool.strength);
+  // The brush is widened where it is finer than the mesh; far from the surface it touches nothing.
+  if ((held(document.positions()) - at).norm() > 2 * tool.radius)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the tool touches nothing at ({:g}, {:g}, {:g}): the surface is {:.3g} m away and its radius is "
+                            "{:g} m; begin the stroke on the surface or make the radius larger", at.x(), at.y(), at.z(),
+                            (held(document.positions()) - at).norm(), tool.radius));
   offset_ = held(document.positions()) - at;
 }
 

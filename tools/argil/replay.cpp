@@ -89,7 +89,7 @@ int replay(const ReplayArguments& arguments) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   ProgressBar bar(arguments.quiet);
   std::unique_ptr<sculpt::Renderer> renderer;
-  if (arguments.pictures) renderer = make_offscreen_renderer();
+  if (arguments.pictures) renderer = view::make_offscreen_renderer();
 
   sculpt::SessionOptions options;
   options.read_root = arguments.session.parent_path();
