@@ -145,6 +145,40 @@ SceneSurface clipped_surface(const Solid& solid, const Eigen::Matrix3Xd& positio
   return cells_surface(solid, positions, cells_met_or_kept(solid, positions, plane));
 }
 
+CellData<CellId> control_cells(const subdiv::Refinement& refinement) {
+  CellData<CellId> control(refinement.levels.front().cell_capacity());
+  for (std::size_t c = 0; c < control.size(); ++c) control[CellId{c}] = CellId{c};
+  for (std::size_t level = 1; level < refinement.levels.size(); ++level) {
+    const CellData<CellId>& parent = refinement.parent[level];
+    CellData<CellId> next(parent.size());
+    for (std::size_t c = 0; c < parent.size(); ++c)
+      if (parent[CellId{c}].valid()) next[CellId{c}] = control[parent[CellId{c}]];
+    control = std::move(next);
+  }
+  return control;
+}
+
+void keep_wire_between(SceneSurface& surface, const CellData<CellId>& group_from_cell) {
+  using Ends = std::array<std::uint32_t, 2>;
+  const auto ascending = [](Ends ends) { return ends[0] < ends[1] ? ends : Ends{ends[1], ends[0]}; };
+  std::vector<std::pair<Ends, CellId>> groups;  // at each edge of each face
+  for (std::size_t face = 0; face + 1 < surface.offsets.size(); ++face)
+    for (std::size_t c = surface.offsets[face]; c < surface.offsets[face + 1]; ++c) {
+      const std::size_t next = c + 1 < surface.offsets[face + 1] ? c + 1 : surface.offsets[face];
+      groups.emplace_back(ascending({surface.corners[c], surface.corners[next]}),
+                          group_from_cell[CellId{surface.cell_from_face[face]}]);
+    }
+  std::sort(groups.begin(), groups.end());
+  std::vector<Ends> kept;
+  for (const Ends& ends : surface.sharp_edges) kept.push_back(ascending(ends));
+  for (std::size_t i = 1; i < groups.size(); ++i)
+    if (groups[i].first == groups[i - 1].first && groups[i].second != groups[i - 1].second)
+      kept.push_back(groups[i].first);
+  std::sort(kept.begin(), kept.end());
+  std::erase_if(surface.wire,
+                [&](const Ends& ends) { return !std::binary_search(kept.begin(), kept.end(), ascending(ends)); });
+}
+
 double round_step(double span, int most) {
   assert(span > 0 && std::isfinite(span) && most > 0);
   const double raw = span / most;

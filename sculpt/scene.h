@@ -6,7 +6,7 @@
 #include <span>
 
 #include "sculpt/renderer.h"
-#include "subdiv/solid.h"
+#include "subdiv/refinement.h"
 
 namespace argil::sculpt {
 
@@ -34,14 +34,12 @@ struct ClipPlane {
 [[nodiscard]] SceneSurface clipped_surface(const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions,
                                            const ClipPlane& plane);
 
-/// Keeps only the wire whose two ends (vertices of the solid) satisfy keep(a, b): the edges of a coarser level, say.
-template <class Keep>
-void keep_wire(SceneSurface& surface, Keep keep) {
-  std::erase_if(surface.wire, [&](const std::array<std::uint32_t, 2>& ends) {
-    return !keep(subdiv::VertexId{surface.vertex_from_surface[ends[0]]},
-                 subdiv::VertexId{surface.vertex_from_surface[ends[1]]});
-  });
-}
+/// The control cell that each cell of the finest level came from.
+[[nodiscard]] subdiv::CellData<subdiv::CellId> control_cells(const subdiv::Refinement& refinement);
+
+/// Keeps of the wire only what runs between different groups of cells (with `control_cells`: the control cells'
+/// outlines on the refined surface), and what is sharp.
+void keep_wire_between(SceneSurface& surface, const subdiv::CellData<subdiv::CellId>& group_from_cell);
 
 /// Colours the surface by a field with one value a vertex of the solid, and gives the scene the legend of its range
 /// on what is shown, rounded outwards to round numbers (from 0 where all are positive and it lies near).

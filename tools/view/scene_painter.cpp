@@ -129,7 +129,7 @@ void ScenePainter::draw_marks(const VertexArray& marks, const Camera& camera, co
                0.5F * factor * static_cast<float>(sampling.height));
   gl.Uniform1f(program.at("radius"), radius * scale);
   gl.Uniform1f(program.at("outline"), 1.3F * scale);
-  gl.Uniform1f(program.at("forward"), 0.006F);
+  gl.Uniform1f(program.at("forward"), 0.015F);
   gl.Uniform1f(program.at("opacity"), opacity);
   gl.Uniform1i(program.at("shape"), shape);
   set_colour(gl, program.at("tint"), tint);
