@@ -73,20 +73,16 @@ Eigen::Matrix3Xd surface_forces(const Discretization& discretization, const Surf
 PointStencil stencil_of_nodes(const subdiv::Stencils& rows, std::span<const std::uint32_t> nodes,
                               std::span<const double> node_weights) {
   std::vector<double> weights(rows.column_count, 0.0);
-  std::vector<std::uint8_t> named(rows.column_count, 0);
+  PointStencil result;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto row = rows.row(nodes[n]);
-    for (std::size_t e = 0; e < row.columns.size(); ++e) {
-      weights[row.columns[e]] += node_weights[n] * row.weights[e];
-      named[row.columns[e]] = 1;
-    }
+    for (std::size_t e = 0; e < row.columns.size(); ++e) weights[row.columns[e]] += node_weights[n] * row.weights[e];
+    result.control_points.insert(result.control_points.end(), row.columns.begin(), row.columns.end());
   }
-  PointStencil result;
-  for (std::size_t c = 0; c < named.size(); ++c) {
-    if (!named[c]) continue;
-    result.control_points.push_back(static_cast<std::uint32_t>(c));
-    result.weights.push_back(weights[c]);
-  }
+  std::sort(result.control_points.begin(), result.control_points.end());
+  result.control_points.erase(std::unique(result.control_points.begin(), result.control_points.end()),
+                              result.control_points.end());
+  for (const std::uint32_t c : result.control_points) result.weights.push_back(weights[c]);
   return result;
 }
 
