@@ -208,9 +208,12 @@ void sharpen_elements(Session& session, const Arguments& arguments) {
   const Selection selection = acted_on(session, arguments, types);
   const double value = arguments.number("value", k_infinitely_sharp);
   edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&) {
-    for (const std::uint32_t id : selection.ids) {
-      if (selection.type == ElementType::edges) sharpen(transaction, EdgeId{id}, value);
-      else sharpen(transaction, VertexId{id}, value);
+    if (selection.type == ElementType::edges) {
+      const std::vector<EdgeId> edges(selection.ids.begin(), selection.ids.end());
+      sharpen(transaction, edges, value);
+    } else {
+      const std::vector<VertexId> vertices(selection.ids.begin(), selection.ids.end());
+      sharpen(transaction, vertices, value);
     }
   });
 }
