@@ -69,10 +69,8 @@ class SurfaceBuilder {
     number_vertices(corner_sets);
     surface_.component_count = face_sets.count();
     const auto characteristic = static_cast<long long>(surface_.vertex_from_surface.size()) -
-                                static_cast<long long>(edge_count) +
-                                static_cast<long long>(surface_.faces.size());
-    surface_.genus =
-        static_cast<int>((2 * static_cast<long long>(surface_.component_count) - characteristic) / 2);
+                                static_cast<long long>(edge_count) + static_cast<long long>(surface_.faces.size());
+    surface_.genus = static_cast<int>((2 * static_cast<long long>(surface_.component_count) - characteristic) / 2);
     return std::move(surface_);
   }
 

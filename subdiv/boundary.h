@@ -28,8 +28,8 @@ struct BoundarySurface {
 /// Cost O(solid) to find the boundary, then O(its corners, log).
 [[nodiscard]] BoundarySurface boundary_surface(const Solid& solid);
 
-/// The surface as triangles, 3 surface vertices each, fanned about the first corner of each face (which suits convex
-/// faces), with the face that each came from.
+/// The surface as triangles, 3 surface vertices each, fanned about the first corner of each face (which suits
+/// convex faces), with the face that each came from.
 struct SurfaceTriangles {
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> face_from_triangle;

@@ -21,11 +21,12 @@ void check_edges(const BoundarySurface& surface) {
   const auto twice = std::adjacent_find(directed.begin(), directed.end());
   if (twice == directed.end()) return;
   const auto a = surface.vertex_from_surface[twice->first], b = surface.vertex_from_surface[twice->second];
-  throw Error(ErrorCode::bad_topology,
-              fmt::format("the boundary runs twice along edge {}-{}, which a half-edge mesh cannot hold; fill or open "
-                          "the gap there",
-                          a.value, b.value),
-              fmt::format("edge {}-{}", a.value, b.value));
+  throw Error(
+      ErrorCode::bad_topology,
+      fmt::format("the boundary runs twice along edge {}-{}, which a half-edge mesh cannot hold; fill or open "
+                  "the gap there",
+                  a.value, b.value),
+      fmt::format("edge {}-{}", a.value, b.value));
 }
 
 }  // namespace

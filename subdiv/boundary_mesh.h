@@ -1,6 +1,6 @@
 #pragma once
-// The boundary surface as an OpenMesh half-edge mesh, for algorithms that walk surfaces. The only header of the room
-// that shows OpenMesh.
+// The boundary surface as an OpenMesh half-edge mesh, for algorithms that walk surfaces. The only header of the
+// room that shows OpenMesh.
 
 #include <Eigen/Core>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -20,8 +20,8 @@ struct BoundaryMesh {
 };
 
 /// `positions`: 3 x vertex capacity of the solid [m].
-/// @throws Error (bad_topology) naming an edge along which the boundary runs twice between the same two copies of its
-/// vertices: half-edges cannot hold that. Cost O(corners).
+/// @throws Error (bad_topology) naming an edge along which the boundary runs twice between the same two copies of
+/// its vertices: half-edges cannot hold that. Cost O(corners).
 [[nodiscard]] BoundaryMesh boundary_mesh(const BoundarySurface& surface, const Eigen::Matrix3Xd& positions);
 
 }  // namespace argil::subdiv

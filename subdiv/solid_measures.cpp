@@ -55,7 +55,7 @@ MassProperties mass_properties(const Solid& solid, const Eigen::Matrix3Xd& posit
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (const VertexId v : solid.vertices()) origin += at(positions, v);
   if (solid.vertex_count() > 0) origin /= static_cast<double>(solid.vertex_count());
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();    // ∫ r dV about the origin chosen
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // ∫ r dV about the origin chosen
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ r rᵀ dV
   for (const CellId cell : solid.cells())
     for_each_triangle(
@@ -65,10 +65,11 @@ MassProperties mass_properties(const Solid& solid, const Eigen::Matrix3Xd& posit
           const double volume = triple(a, b, c) / 6;
           result.volume += volume;
           first += volume / 4 * sum;
-          second += volume / 20 *
-                    (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+          second +=
+              volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
         });
-  const Eigen::Vector3d offset = result.volume != 0 ? Eigen::Vector3d(first / result.volume) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d offset =
+      result.volume != 0 ? Eigen::Vector3d(first / result.volume) : Eigen::Vector3d::Zero();
   result.centre = origin + offset;
   second -= result.volume * offset * offset.transpose();
   result.inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
