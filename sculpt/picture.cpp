@@ -7,6 +7,7 @@
 
 #include "sculpt/document_loads.h"
 #include "sculpt/measures.h"
+#include "sculpt/region.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
@@ -35,11 +36,13 @@ void add_lines(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positio
   }
 }
 
-void add_marks(Scene& scene, const Document& document, double size) {
+void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& now) {
+  const double size = extent(now);
+  // A pinned control point is shown where it holds the surface.
+  const auto node = node_from_control_vertex(document);
   for (const std::uint32_t v : document.state().pins->control_points)
-    scene.pins.push_back(single(document.positions().col(v)));
+    scene.pins.push_back(single(now.col(node[v])));
   if (!document.state().pins->nodes.empty()) {
-    const Eigen::Matrix3Xd now = document.surface_nodes(document.positions());
     for (const SoftPin& pin : document.state().pins->nodes) scene.pins.push_back(single(now.col(pin.node)));
   }
   double largest = 0;
@@ -132,7 +135,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
     }
   }
   if (request.cage) add_cage(scene, document.solid(), document.positions());
-  if (request.marks) add_marks(scene, document, extent(positions));
+  if (request.marks) add_marks(scene, document, positions);
   return scene;
 }
 

@@ -3,6 +3,7 @@
 #include "fem/material.h"
 #include "fem/measure/strain.h"
 #include "fem/measure/stress.h"
+#include "subdiv/build.h"
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 
 #include "io/volume_mesh.h"
 #include "sculpt/commands/commands.h"
@@ -103,6 +104,36 @@ Eigen::Vector3d mean_normal(const Solid& solid, const Eigen::Matrix3Xd& position
   return sum.normalized();
 }
 
+// For every vertex of a region the middle of its patch, the faces connected through shared vertices: four legs that are
+// extruded together taper each about its own axis.
+std::map<VertexId, Eigen::Vector3d> patch_middles(const Solid& solid, const std::vector<FaceId>& faces,
+                                                  const Eigen::Matrix3Xd& positions) {
+  std::map<VertexId, VertexId> parent;
+  const auto root = [&](VertexId v) {
+    while (parent.at(v) != v) v = parent.at(v) = parent.at(parent.at(v));
+    return v;
+  };
+  for (const FaceId f : faces)
+    for (const VertexId v : solid.face_vertices(f)) parent.try_emplace(v, v);
+  for (const FaceId f : faces)
+    for (const VertexId v : solid.face_vertices(f)) {
+      const VertexId a = root(v), b = root(solid.face_vertices(f)[0]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::map<VertexId, std::pair<Eigen::Vector3d, double>> sums;
+  for (const auto& [v, unused] : parent) {
+    auto& [sum, count] = sums.try_emplace(root(v), Eigen::Vector3d::Zero(), 0.0).first->second;
+    sum += positions.col(static_cast<Eigen::Index>(v.index()));
+    count += 1;
+  }
+  std::map<VertexId, Eigen::Vector3d> middles;
+  for (const auto& [v, unused] : parent) {
+    const auto& [sum, count] = sums.at(root(v));
+    middles[v] = sum / count;
+  }
+  return middles;
+}
+
 void extrude_faces(Session& session, const Arguments& arguments) {
   const Selection selection = acted_on(session, arguments, k_faces);
   const int steps = static_cast<int>(arguments.integer("steps", 1));
@@ -123,15 +154,7 @@ void extrude_faces(Session& session, const Arguments& arguments) {
     if (!(direction.norm() > 0)) throw Error(ErrorCode::bad_input, "the direction is zero");
     const Eigen::Vector3d shift = distance * direction.normalized();
     const Extrusion grown = extrude(transaction, faces, steps);
-    // Scaling is about the middle of what is moved.
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < grown.new_vertices.size(); ++i)
-      if (grown.step_of_new[i] == 1) {
-        middle += rest.col(static_cast<Eigen::Index>(grown.source_of_new[i].index()));
-        ++count;
-      }
-    if (count) middle /= static_cast<double>(count);
+    const auto middle = patch_middles(transaction.solid(), faces, rest);
     const auto vertices = static_cast<Eigen::Index>(transaction.solid().vertex_capacity());
     rest.conservativeResize(3, vertices);
     present.conservativeResize(3, vertices);
@@ -139,7 +162,7 @@ void extrude_faces(Session& session, const Arguments& arguments) {
       const auto source = static_cast<Eigen::Index>(grown.source_of_new[i].index());
       const auto made = static_cast<Eigen::Index>(grown.new_vertices[i].index());
       const double part = static_cast<double>(grown.step_of_new[i]) / steps;
-      const Eigen::Vector3d offset = part * shift + part * (scale - 1) * (rest.col(source) - middle);
+      const Eigen::Vector3d offset = part * shift + part * (scale - 1) * (rest.col(source) - middle.at(grown.source_of_new[i]));
       rest.col(made) = rest.col(source) + offset;
       present.col(made) = present.col(source) + offset;
     }
@@ -208,9 +231,12 @@ void sharpen_elements(Session& session, const Arguments& arguments) {
   const Selection selection = acted_on(session, arguments, types);
   const double value = arguments.number("value", k_infinitely_sharp);
   edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&) {
-    for (const std::uint32_t id : selection.ids) {
-      if (selection.type == ElementType::edges) sharpen(transaction, EdgeId{id}, value);
-      else sharpen(transaction, VertexId{id}, value);
+    if (selection.type == ElementType::edges) {
+      const std::vector<EdgeId> edges(selection.ids.begin(), selection.ids.end());
+      sharpen(transaction, edges, value);
+    } else {
+      const std::vector<VertexId> vertices(selection.ids.begin(), selection.ids.end());
+      sharpen(transaction, vertices, value);
     }
   });
 }
@@ -298,7 +324,7 @@ std::vector<Command> shape_commands() {
                        .low = -1e9, .high = 1e9},
                       {.name = "steps", .type = ArgumentType::integer, .help = "cells along the way", .low = 1, .high = 1000},
                       {.name = "along", .help = "direction; else the mean normal of the faces", .count = 3},
-                      {.name = "scale", .help = "size of the far end against the near one", .low = 1e-3, .high = 1e3},
+                      {.name = "scale", .help = "size of the far end against the near one, about the middle of each patch", .low = 1e-3, .high = 1e3},
                       where_faces},
        .example = "extrude 0.4 steps 2",
        .run = extrude_faces},
