@@ -1,12 +1,26 @@
 #include "fem/models/corotational_kernels.h"
 
 #include "fem/models/lane_polar.h"
-#include "fem/models/packet_shapes.h"
+#include "fem/models/shapes/dense_shape.h"
+#include "fem/models/shapes/tricubic_shape.h"
+#include "fem/models/shapes/trilinear_shape.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace argil::fem {
 namespace {
+
+// Long and, but for tangents, rarely needed: out of line, once for each set of instructions.
+struct Baseline {
+  static __attribute__((noinline)) void svd(const LaneMatrix& f, LaneSvd& result) { signed_svd(f, result); }
+};
+#if defined(__x86_64__)
+struct Avx2 {
+  static __attribute__((noinline, target("avx2"))) void svd(const LaneMatrix& f, LaneSvd& result) {
+    signed_svd(f, result);
+  }
+};
+#endif
 
 struct PointMaterial {
   Lanes mu, lambda;
@@ -55,7 +69,7 @@ ARGIL_LANES_INLINE Lanes inner(const LaneMatrix& a, const LaneMatrix& b) {
 }
 
 struct Energy {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -66,7 +80,7 @@ struct Energy {
       at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
         const PointMaterial m = material(a, packet, p, points);
         LaneMatrix rotation;
-        nearest_rotation(f, rotation);
+        nearest_rotation(f, rotation, Isa::svd);
         const Lanes trace = inner(rotation, f) - 3.0;
         Lanes square = broadcast(0);
         for (int i = 0; i < 9; ++i) square += (f.m[i] - rotation.m[i]) * (f.m[i] - rotation.m[i]);
@@ -78,7 +92,7 @@ struct Energy {
 };
 
 struct Forces {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind), stresses(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -90,7 +104,7 @@ struct Forces {
                 [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& f) {
                   const PointMaterial m = material(a, packet, p, points);
                   LaneMatrix rotation;
-                  nearest_rotation(f, rotation);
+                  nearest_rotation(f, rotation, Isa::svd);
                   const Lanes volume = load(a.volumes + index);
                   const Lanes shear = -2.0 * m.mu * volume;
                   const Lanes pressure = -m.lambda * volume * (inner(rotation, f) - 3.0);
@@ -106,7 +120,7 @@ struct Forces {
 };
 
 struct TangentAtState {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -116,7 +130,7 @@ struct TangentAtState {
       at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
         const PointMaterial m = material(a, packet, p, points);
         LaneSvd svd;
-        signed_svd(f, svd);
+        Isa::svd(f, svd);
         const LaneMatrix rotation = outer_sum(svd.u, svd.v);
         const Lanes volume = load(a.volumes + index);
         const Lanes k = m.lambda * (sum(svd.sigma) - 3.0) - 2.0 * m.mu;
@@ -142,7 +156,7 @@ struct TangentAtState {
 };
 
 struct Product {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind), stresses(*a.kind);
     for (std::size_t packet = begin; packet < end; ++packet) {
@@ -174,13 +188,13 @@ struct Product {
 
 template <class Operation, class Shape>
 __attribute__((flatten)) void run_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
-  Operation::template run<Shape>(a, begin, end);
+  Operation::template run<Shape, Baseline>(a, begin, end);
 }
 #if defined(__x86_64__)
 template <class Operation, class Shape>
 __attribute__((target("avx2"), flatten)) void run_avx2(const PacketArguments& a, std::size_t begin,
                                                        std::size_t end) {
-  Operation::template run<Shape>(a, begin, end);
+  Operation::template run<Shape, Avx2>(a, begin, end);
 }
 #endif
 

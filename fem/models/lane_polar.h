@@ -24,7 +24,9 @@ ARGIL_LANES_INLINE void cofactors(const LaneMatrix& a, LaneMatrix& result) {
   c[8] = m[0] * m[4] - m[1] * m[3];
 }
 
-ARGIL_LANES_INLINE void nearest_rotation(const LaneMatrix& f, LaneMatrix& rotation) {
+/// `svd(f, result)` is signed_svd, which kernels keep out of line.
+template <class Svd>
+ARGIL_LANES_INLINE void nearest_rotation(const LaneMatrix& f, LaneMatrix& rotation, const Svd& svd) {
   Lanes square = broadcast(0);
   for (const Lanes& x : f.m) square += x * x;
   LaneMatrix cofactor;
@@ -50,9 +52,9 @@ ARGIL_LANES_INLINE void nearest_rotation(const LaneMatrix& f, LaneMatrix& rotati
     determinant = rotation.m[0] * cofactor.m[0] + rotation.m[1] * cofactor.m[1] + rotation.m[2] * cofactor.m[2];
   }
   if (solid[0] & solid[1] & solid[2] & solid[3]) return;
-  LaneSvd svd;
-  signed_svd(f, svd);
-  const LaneMatrix robust = outer_sum(svd.u, svd.v);
+  LaneSvd factors;
+  svd(f, factors);
+  const LaneMatrix robust = outer_sum(factors.u, factors.v);
   for (int i = 0; i < 9; ++i) rotation.m[i] = solid ? rotation.m[i] : robust.m[i];
 }
 

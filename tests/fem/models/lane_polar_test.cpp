@@ -25,6 +25,10 @@ Matrix3d columns(const LaneVector* v, int lane) {
   return m;
 }
 
+void rotate(const LaneMatrix& f, LaneMatrix& rotation) {
+  nearest_rotation(f, rotation, [](const LaneMatrix& m, LaneSvd& svd) { signed_svd(m, svd); });
+}
+
 /// From nearly rigid to flat, mirrored, of rank one and nothing.
 std::vector<Matrix3d> cases() {
   const Matrix3d r = test::rotation(2.2, {1, -3, 2}), q = test::rotation(0.7, {2, 1, 1});
@@ -75,7 +79,7 @@ TEST(LanePolar, NearestRotationIsNotBeatenByAnyOther) {
   for (const Matrix3d& f : cases()) {
     LaneMatrix lanes, rotation;
     for (int lane = 0; lane < 4; ++lane) put(lanes, lane, f);
-    nearest_rotation(lanes, rotation);
+    rotate(lanes, rotation);
     const Matrix3d r = take(rotation, 0);
     EXPECT_LE((r.transpose() * r - Matrix3d::Identity()).norm(), 1e-14) << f;
     EXPECT_NEAR(r.determinant(), 1, 1e-14);
@@ -83,7 +87,9 @@ TEST(LanePolar, NearestRotationIsNotBeatenByAnyOther) {
     for (unsigned seed = 0; seed < 30; ++seed) {
       const Eigen::Matrix3Xd axis = test::random_vectors(1, 1, seed);
       for (const double angle : {1e-4, 0.1, 3.0})
-        EXPECT_LE(((test::rotation(angle, axis.col(0)) * r).transpose() * f).trace(), best + 1e-14 * f.norm() + 1e-60) << f;
+        EXPECT_LE(((test::rotation(angle, axis.col(0)) * r).transpose() * f).trace(),
+                  best + 1e-14 * f.norm() + 1e-60)
+            << f;
     }
   }
 }
@@ -94,7 +100,7 @@ TEST(LanePolar, NewtonAndSingularValuesAgree) {
         test::rotation(seed, {1, 2, 3}) * (Matrix3d::Identity() + 0.5 * Matrix3d(test::random_vectors(3, 1, seed)));
     LaneMatrix lanes, rotation;
     for (int lane = 0; lane < 4; ++lane) put(lanes, lane, f);
-    nearest_rotation(lanes, rotation);
+    rotate(lanes, rotation);
     LaneSvd svd;
     signed_svd(lanes, svd);
     const double pair = svd.sigma.m[1][0] + svd.sigma.m[2][0];  // R turns by δF/(σ₁ + σ₂)
@@ -107,12 +113,12 @@ TEST(LanePolar, LanesDoNotDependOnEachOther) {
   for (std::size_t i = 0; i + 3 < all.size(); ++i) {
     LaneMatrix together, alone, rotations, rotation;
     for (int lane = 0; lane < 4; ++lane) put(together, lane, all[i + static_cast<std::size_t>(lane)]);
-    nearest_rotation(together, rotations);
+    rotate(together, rotations);
     LaneSvd svds, svd;
     signed_svd(together, svds);
     for (int lane = 0; lane < 4; ++lane) {
       for (int other = 0; other < 4; ++other) put(alone, other, all[i + static_cast<std::size_t>(lane)]);
-      nearest_rotation(alone, rotation);
+      rotate(alone, rotation);
       signed_svd(alone, svd);
       EXPECT_EQ(take(rotations, lane), take(rotation, 0));
       EXPECT_EQ(columns(svds.u, lane), columns(svd.u, 0));
