@@ -104,7 +104,9 @@ class Reader {
   };
 
   void read_header() {
-    for (const std::string_view word : {"#", "vtk", "DataFile", "Version"}) cursor_.keyword(word);
+    for (const std::string_view word : {"#", "vtk", "DataFile", "Version"}) {
+      if (cursor_.word("a first line") != word) cursor_.mismatch("a first line \"# vtk DataFile Version ...\"");
+    }
     const std::string_view version = cursor_.word("a version");
     int minor = 0;
     const char* const end = version.data() + version.size();
@@ -145,7 +147,7 @@ class Reader {
   std::size_t values_left(std::size_t items, std::size_t components, NumberType type) const {
     const std::size_t most = binary_ ? cursor_.remaining() / type.bytes : (cursor_.remaining() + 1) / 2;
     if (components != 0 && items > most / components) {
-      cursor_.fail(fmt::format("{} × {} values cannot be: only {} bytes are left in the file; was it cut short?",
+      cursor_.fail(fmt::format("expected {} × {} values, but only {} bytes are left in the file; was it cut short?",
                                items, components, cursor_.remaining()));
     }
     return items * components;

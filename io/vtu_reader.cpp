@@ -229,7 +229,8 @@ class Reader {
     const std::size_t growth = compressed_ ? 1032 : 1;
     const std::size_t most = ascii ? text.remaining() / 2 + 1 : bytes_.size() * growth / type_of(array).bytes;
     if (items > most / components) {
-      fail(array, fmt::format("{} × {} numbers cannot be in this file; was it cut short?", items, components));
+      fail(array, fmt::format("expected {} × {} numbers, more than the array can hold; was it cut short?", items,
+                              components));
     }
     return items * components;
   }
