@@ -5,6 +5,8 @@
 #include <charconv>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "io/number_type.h"
 #include "io/text_cursor.h"
@@ -72,8 +74,7 @@ class Reader {
       } else if (keyword == "cell_types") {
         read_cell_types();
       } else if (keyword == "field" && !have_points_) {
-        NamedFields of_the_data_set;
-        read_field(of_the_data_set, std::nullopt);
+        read_field(passed_over_, std::nullopt);
       } else if (keyword == "metadata") {
         skip_metadata();
       } else if (keyword == "point_data") {
@@ -365,8 +366,8 @@ class Reader {
   }
 
   void add_field(NamedFields& fields, std::string name, int components, std::size_t items, NumberType type) {
-    for (const NamedField& other : fields) {
-      if (other.name == name) cursor_.fail(fmt::format("two arrays have the name {}; rename one", in_quotes(name)));
+    if (!names_.insert({&fields, name}).second) {
+      cursor_.fail(fmt::format("two arrays have the name {}; rename one", in_quotes(name)));
     }
     std::vector<double> values = doubles(items, static_cast<std::size_t>(components), type);
     fields.push_back({std::move(name), components, std::move(values)});
@@ -374,8 +375,10 @@ class Reader {
 
   TextCursor cursor_;
   VolumeMesh mesh_;
+  NamedFields passed_over_;  // the data set's own
   VtkCells cells_;
   Integers numbers_;
+  std::set<std::pair<const NamedFields*, std::string>> names_;
   std::size_t raw_at_ = 0;
   int version_ = 0;
   bool binary_ = false, have_points_ = false, have_cells_ = false, have_types_ = false;

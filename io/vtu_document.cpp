@@ -197,14 +197,17 @@ TextCursor VtuDocument::text_of(xml_node array) const {
 }
 
 std::size_t VtuDocument::checked_count(xml_node array, std::size_t items, std::size_t components,
-                                       const TextCursor& text) const {
+                                       const TextCursor& text) {
   const bool ascii = is_ascii(array);
-  const std::size_t growth = compressed_ ? 1032 : 1;
-  const std::size_t most = ascii ? text.remaining() / 2 + 1 : bytes_.size() * growth / type_of(array).bytes;
+  const std::size_t bytes = type_of(array).bytes;
+  // Arrays that share appended data must not multiply it: all together are held to what the file can unpack to.
+  const std::size_t unpacked = bytes_.size() * (compressed_ ? k_deflate_growth : 1);
+  const std::size_t most = ascii ? text.remaining() / 2 + 1 : (unpacked - unpacked_used_) / bytes;
   if (items > most / components) {
-    fail(array, fmt::format("expected {} × {} numbers, more than the array can hold; was it cut short?", items,
-                            components));
+    fail(array, fmt::format("expected {} × {} numbers, more than the array can hold; was the file cut short?",
+                            items, components));
   }
+  if (!ascii) unpacked_used_ += items * components * bytes;
   return items * components;
 }
 

@@ -59,7 +59,7 @@ class VtuDocument {
   NumberType type_of(pugi::xml_node array) const;
   TextCursor text_of(pugi::xml_node array) const;
   std::size_t checked_count(pugi::xml_node array, std::size_t items, std::size_t components,
-                            const TextCursor& text) const;
+                            const TextCursor& text);
   bool is_ascii(pugi::xml_node array) const;
   std::string binary(pugi::xml_node array, std::size_t size, const TextCursor& text);
   NumberFault number_fault(pugi::xml_node array) const;
@@ -69,7 +69,7 @@ class VtuDocument {
   std::string buffer_;  // the XML, which the parser changes in place
   pugi::xml_document document_;
   pugi::xml_node root_;
-  std::size_t appended_begin_ = 0, appended_used_ = 0, header_bytes_ = 4;
+  std::size_t appended_begin_ = 0, appended_used_ = 0, unpacked_used_ = 0, header_bytes_ = 4;
   bool big_endian_ = false, compressed_ = false, appended_base64_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "io/vtk_cells.h"
 #include "io/vtu.h"
@@ -157,6 +158,7 @@ class Reader {
 
   void read_fields(xml_node piece, const char* name, std::size_t items, std::vector<NamedField>& fields) {
     if (!piece.child(name)) return;
+    std::set<std::string> names;
     for (const xml_node array : document_.only_child(piece, name).children()) {
       if (std::string_view(array.name()) != "DataArray") {
         document_.fail(array,
@@ -167,8 +169,9 @@ class Reader {
       NamedField field;
       field.name = array.attribute("Name").value();
       if (field.name.empty()) document_.fail(array, "expected a Name for the array, found none");
-      if (document_.named_array(array.parent(), field.name) != array)
-        document_.fail(array, "two arrays have the same name");
+      if (!names.insert(field.name).second) {
+        document_.fail(array, fmt::format("two arrays have the name {}; rename one", in_quotes(field.name)));
+      }
       const std::size_t components = document_.components_of(array);
       field.components = static_cast<int>(components);
       field.values = document_.doubles(array, items, components);

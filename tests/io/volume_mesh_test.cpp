@@ -201,6 +201,21 @@ TEST(Vtu, AnArrayInWholeBlocksAndAnEmptyOneAreRead) {
   expect_same(read_vtu(VtuEncoder(style).encode(every_kind()), "t"), every_kind());
 }
 
+TEST(Vtu, ArraysThatShareAppendedDataCannotMultiplyIt) {
+  VolumeMesh mesh = every_kind();
+  mesh.point_fields = {{"stress", 9, std::vector<double>(17 * 9, 0.5)}};
+  std::string file = VtuEncoder({VtuStyle::Place::appended_raw}).encode(mesh);
+  const std::size_t begin = file.find("<DataArray"), end = file.find("/>", begin) + 2;
+  std::string copies;
+  for (int i = 0; i < 100; ++i) {
+    std::string copy = file.substr(begin, end - begin);
+    copies += copy.replace(copy.find("stress"), 6, fmt::format("s{}", i)) + "\n";
+  }
+  file.insert(end, copies);  // each copy claims 1224 bytes and is itself a tenth of that
+  EXPECT_THAT(error_of([&] { (void)read_vtu(file, "t"); }).what(),
+              testing::HasSubstr("more than the array can hold"));
+}
+
 TEST(Vtu, AZipBombIsRefusedBeforeItIsUnpacked) {
   // 10¹² points are claimed, and a compressed header that agrees with them.
   const std::string file = fmt::format(
