@@ -13,6 +13,7 @@ namespace {
 
 using pugi::xml_node;
 using Integers = VtuDocument::Integers;
+constexpr int k_polyhedron = 42;
 
 class Reader {
  public:
@@ -83,14 +84,15 @@ class Reader {
     const auto size = static_cast<std::size_t>(count == 0 ? 0 : offsets.values.back());
     const Integers connectivity = document_.integers(needed_array(node, "connectivity"), size);
 
-    const bool polyhedra =
-        std::count(types.values.begin(), types.values.end(), vtk_type(subdiv::CellKind::polyhedron)) > 0;
+    // Other programs list them for grids without polyhedra too.
+    const bool polyhedra = document_.named_array(node, "faceoffsets") || document_.named_array(node, "faces") ||
+                           std::count(types.values.begin(), types.values.end(), k_polyhedron) > 0;
     Integers face_offsets, faces;
     if (polyhedra) {
       face_offsets = document_.integers(needed_array(node, "faceoffsets"), count);
       std::int64_t end = 0;
       for (std::size_t c = 0; c < count; ++c) {
-        if (types.values[c] != vtk_type(subdiv::CellKind::polyhedron)) continue;
+        if (types.values[c] != k_polyhedron) continue;
         check_offset(face_offsets, c, end);
         end = face_offsets.values[c];
       }
@@ -109,7 +111,7 @@ class Reader {
     std::vector<Origin> origins;
     std::size_t face_begin = 0;
     for (std::size_t c = 0; c < types.values.size(); ++c) {
-      const bool polyhedron = types.values[c] == vtk_type(subdiv::CellKind::polyhedron);
+      const bool polyhedron = types.values[c] == k_polyhedron;
       const Integers& source = polyhedron ? faces : connectivity;
       const std::size_t begin = polyhedron ? face_begin
                                 : c == 0   ? 0

@@ -216,6 +216,15 @@ TEST(Vtu, ArraysThatShareAppendedDataCannotMultiplyIt) {
               testing::HasSubstr("more than the array can hold"));
 }
 
+TEST(Vtu, EmptyFacesOfAGridWithoutPolyhedraAreRead) {
+  const VolumeMesh mesh = test::only(every_kind(), CellKind::hexahedron);
+  std::string file = VtuEncoder({}).encode(mesh);
+  file.insert(file.find("</Cells>"),
+              "<DataArray type=\"Int64\" Name=\"faces\" format=\"ascii\"/>\n"
+              "<DataArray type=\"Int64\" Name=\"faceoffsets\" format=\"ascii\">-1</DataArray>\n");
+  expect_same(read_vtu(file, "t"), mesh);
+}
+
 TEST(Vtu, AZipBombIsRefusedBeforeItIsUnpacked) {
   // 10¹² points are claimed, and a compressed header that agrees with them.
   const std::string file = fmt::format(
