@@ -43,6 +43,13 @@ struct ElementCounts {  // those integrated
   std::size_t pyramids_without_stiffness = 0;  // below 1e-3 of their cell's volume; they keep their mass
 };
 
+/// Where the fields at quadrature points come from: values at samples, then shape functions of an element's corners
+/// (its own nodes, or the eight corners of a tricubic element's cell).
+struct FieldSamples {
+  subdiv::Stencils rows;                            // sample = rows * values at the vertices of the finest level
+  std::vector<std::vector<std::uint32_t>> corners;  // per block: [element * corner_count + corner], samples
+};
+
 struct Discretization {
   Space space = Space::standard;
   int level = 0;
@@ -54,15 +61,22 @@ struct Discretization {
   /// Row of the node table that shows vertex v of the finest level: the vertex itself, in cubic space its limit
   /// point.
   std::vector<std::uint32_t> surface_node_from_vertex;
+  subdiv::Stencils rows_transposed;  // Aᵀ
+  FieldSamples field_samples;
   Eigen::SparseMatrix<double> mass;     // control points, consistent: Aᵀ M A [kg]
   Eigen::SparseMatrix<double> damping;  // ∫ damping · density NᵀN [kg/s]
   double rest_volume = 0, total_mass = 0;
 };
 
-/// Counts without integrating, for `argil elements` (fields taken as constant).
 [[nodiscard]] CellCounts count_cells(const subdiv::Solid& finest);
 
-/// @throws Error (bad_geometry) naming the cell whose rest Jacobian at a quadrature point is ≤ 0.
+/// Default space: rows are the vertices of the finest level and the virtual centres; every hexahedron is an
+/// element, every other cell gives a pyramid over each of its faces. Cubic space (METHODS §2, §3): a regular cell
+/// over which the fields are trilinear (to 1e-12) becomes one tricubic element at the coarsest such level, at the
+/// finest level any regular cell does; what is left is refined `split` times more and meshed linearly, nodes at
+/// limit positions.
+/// @throws Error (bad_geometry) naming the cell whose rest Jacobian at a quadrature point is ≤ 0; (unsupported) for
+/// a cell with faces that are not quadrilaterals, which only level 0 has.
 [[nodiscard]] Discretization discretize(const subdiv::Refinement& refinement,
                                         const Eigen::Matrix3Xd& rest_control_points, const NodalFields& fields,
                                         const DiscretizationOptions& options);

@@ -1,7 +1,7 @@
 #pragma once
 // The one table of nodes (DESIGN.md): every point that an element may name, as a row of A in the control points.
-// Rows stand in this order: vertices of level 0, 1, … K (and of the split levels above K), virtual centres,
-// phantoms, limit points.
+// Rows stand in this order: vertices of level 0, 1, … K, virtual centres, phantoms, limit points. A level whose
+// vertices no element names has no rows.
 
 #include <Eigen/Core>
 #include <vector>

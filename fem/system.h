@@ -30,6 +30,7 @@ struct System {
   const subdiv::Stencils* rows = nullptr;             // A: nodes in control points
   const subdiv::Stencils* rows_transposed = nullptr;  // Aᵀ
   const ForceModel* model = nullptr;
+  const Eigen::Matrix3Xd* rest_nodes = nullptr;  // 3 x nodes: where the preconditioner takes its tangent
   const Eigen::SparseMatrix<double>* mass = nullptr;
   const Eigen::SparseMatrix<double>* damping = nullptr;
   std::vector<std::uint8_t> fixed;  // per control point: 1 = moves exactly 0
@@ -42,6 +43,16 @@ struct BodyState {
   double previous_step = 0;                                  // [s]
   double time = 0;                                           // [s]
 };
+
+/// Nodes x = A p, and generalised forces Aᵀ f. Cost O(entries of A), in parallel by rows.
+[[nodiscard]] Eigen::Matrix3Xd nodes(const System& system, const Eigen::Matrix3Xd& positions);
+[[nodiscard]] Eigen::Matrix3Xd generalised_forces(const System& system, const Eigen::Matrix3Xd& node_forces);
+
+/// Adds the forces of the springs, stiffness · (target − Σ weight · p) spread by the weights [N], to `forces`.
+void add_spring_forces(const std::vector<AnchorSpring>& springs, const Eigen::Matrix3Xd& positions,
+                       Eigen::Matrix3Xd& forces);
+/// Σ weight · p: where the spring holds the body [m].
+[[nodiscard]] Eigen::Vector3d held_point(const AnchorSpring& spring, const Eigen::Matrix3Xd& positions);
 
 /// Reactions of the fixed control points [N], 3 x N (zero elsewhere): what the pin applies to the body, at rest
 /// −(internal + external) force.

@@ -10,6 +10,7 @@
 
 #include "io/text_cursor.h"
 #include "io/vtk_cells.h"
+#include "subdiv/cell_kinds.h"
 
 namespace argil::io {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "subdiv/cell_kinds.h"
 #include "subdiv/error.h"
 
 namespace argil::io {
@@ -192,22 +193,6 @@ int vtk_type(CellKind kind) {
       break;
   }
   return k_polyhedron;
-}
-
-std::size_t vertex_count(CellKind kind) {
-  switch (kind) {
-    case CellKind::tetrahedron:
-      return 4;
-    case CellKind::hexahedron:
-      return 8;
-    case CellKind::wedge:
-      return 6;
-    case CellKind::pyramid:
-      return 5;
-    case CellKind::polyhedron:
-      break;
-  }
-  return 0;
 }
 
 std::string plural_name(CellKind kind) {

@@ -26,8 +26,6 @@ struct VtkCells {
 void append_vtk_cells(const VtkCells& cells, subdiv::CellLists& lists);
 
 [[nodiscard]] int vtk_type(subdiv::CellKind kind);
-/// Number of vertices of a kind; 0 for a polyhedron.
-[[nodiscard]] std::size_t vertex_count(subdiv::CellKind kind);
 /// "hexahedra", …
 [[nodiscard]] std::string plural_name(subdiv::CellKind kind);
 

@@ -115,9 +115,9 @@ std::string inflate_blocks(Source& source, const VtuEncoding& encoding, std::siz
   }
   const std::uint64_t last = last_size == 0 ? block_size : last_size;
   // Checked without the product overflowing.
-  const bool fits = block_size <= size && last <= size &&
-                    (block_size == 0 ? size == last
-                                     : (size - last) / block_size == blocks - 1 && (size - last) % block_size == 0);
+  const bool fits = blocks == 1 ? last == size
+                                : block_size > 0 && last <= size && (size - last) / block_size == blocks - 1 &&
+                                      (size - last) % block_size == 0;
   if (!fits) {
     fault(fmt::format("expected {} bytes, found {} blocks of {} and a last one of {}", size, blocks, block_size,
                       last));

@@ -47,7 +47,7 @@ class Delta {
 class Transaction {
  public:
   explicit Transaction(Solid& solid) : solid_(&solid) {}
-  ~Transaction();
+  ~Transaction();  // rolls back what was not committed
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
 
@@ -57,10 +57,12 @@ class Transaction {
   /// The edge between two vertices, added if there is none.
   EdgeId add_edge(VertexId a, VertexId b);
   /// The face with this loop, added (with its edges) if there is none; the use whose loop is `loop`.
+  /// @throws Error (bad_topology) for fewer than 3 vertices, a repeated or a dead one.
   FaceUseId add_face(std::span<const VertexId> loop);
-  /// A cell from uses that no cell owns. @throws Error (bad_topology) if they do not close to one sphere.
+  /// A cell from uses that no cell owns. @throws Error (bad_topology) if they do not close to one sphere, or one is
+  /// owned; the transaction is then as it was before the call.
   CellId add_cell(std::span<const FaceUseId> uses);
-  /// Adds the faces as well: each loop is seen counter-clockwise from outside the cell.
+  /// Adds the faces as well: each loop is seen counter-clockwise from outside the cell. Throws as above.
   CellId add_cell(const std::vector<std::vector<VertexId>>& loops);
 
   /// Removes a cell and, with `dangling`, the faces, edges and vertices that no cell holds any more.
@@ -69,6 +71,7 @@ class Transaction {
   void remove_edge(EdgeId e);      // of no face
   void remove_vertex(VertexId v);  // of no edge
 
+  /// 0 (smooth) to k_infinitely_sharp.
   void set_sharpness(EdgeId e, double sharpness);
   void set_sharpness(VertexId v, double sharpness);
 
@@ -77,13 +80,17 @@ class Transaction {
   /// Ends it by taking everything back.
   void roll_back();
 
+  /// `solid` must be as the delta left it (undo) or found it (redo); asserted where that shows.
   static void undo(Solid& solid, const Delta& delta);
   static void redo(Solid& solid, const Delta& delta);
 
  private:
-  template <class Values>
-  void record(Delta::Kind kind, std::uint32_t id, const Values& values);
-  void record(Delta::Kind kind, std::uint32_t id, double before = 0, double after = 0);
+  Delta::Step& record(Delta::Kind kind, std::uint32_t id);
+  void take_back_to(std::size_t step_count);
+  static void undo_step(Solid& solid, const Delta::Step& step);
+  static void redo_step(Solid& solid, const Delta::Step& step, std::span<const std::uint32_t> payload);
+  static void assign_sharpness(Solid& solid, EdgeId e, double sharpness);
+  static void assign_sharpness(Solid& solid, VertexId v, double sharpness);
 
   Solid* solid_;
   Delta delta_;

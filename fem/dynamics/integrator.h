@@ -2,8 +2,12 @@
 // Time steps in the control points (METHODS §5): BDF2 (default) and implicit Euler, each a minimisation by Newton's
 // method with line search, its linear systems by preconditioned conjugate gradients.
 
+#include <cstdint>
+#include <memory>
 #include <string_view>
+#include <vector>
 
+#include "fem/solvers/preconditioner.h"
 #include "fem/system.h"
 
 namespace argil::fem {
@@ -24,28 +28,43 @@ struct StepReport {
   int linear_iterations = 0;
   double residual = 0;  // relative
   bool converged = false;
+  PreconditionerKind preconditioner = PreconditionerKind::jacobi;
   double ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
 };
 using Clock = double (*)();  // seconds; null: nothing is measured
 
-/// Keeps what lasts from step to step (preconditioner, workspaces). Results depend on state and inputs only, never
-/// on what was kept: after undo, the same step gives the same bits.
+/// Keeps what lasts from step to step (the rest operator, its factor). Results depend on state and inputs only,
+/// never on what was kept: after undo, the same step gives the same bits.
 class Integrator {
  public:
+  /// What `system` points to must outlive the integrator.
   explicit Integrator(System system);
   ~Integrator();
   Integrator(Integrator&&) noexcept;
   Integrator& operator=(Integrator&&) noexcept;
 
+  /// To be called when materials, mass, damping or rest positions have changed behind the system's pointers.
+  void materials_changed();
+  /// Takes other pins; the rest operator is kept.
+  void set_fixed(std::vector<std::uint8_t> fixed);
+
+  /// One step of length `time_step` [s]: BDF2 with history of the same step length, else implicit Euler. A fixed
+  /// control point keeps its position and has velocity 0. Forces that depend on velocity are taken at the start of
+  /// the step. Stops after `newton_cap` iterations without complaint; the report tells.
+  /// @throws Error (not_converged) if a value is not finite, (bad_input) for a time step that is not positive;
+  /// `state` is then as it was.
   StepReport step(const Loads& loads, BodyState& state, double time_step, const StepOptions& options,
                   Clock clock = nullptr);
-  /// Static equilibrium by Newton with load steps; velocities and history are cleared.
-  /// @throws Error (not_converged) with what is left.
+
+  /// Static equilibrium by Newton, with load steps where the whole load fails; velocities and history are cleared.
+  /// Its tolerance is at most 1e-8 of the loads and reactions, whatever the options say; their cap is not used.
+  /// @throws Error (bad_input) if the load pushes along a rigid motion that nothing holds, (not_converged) with
+  /// what is left; `state` is then as it was.
   StepReport solve_static(const Loads& loads, BodyState& state, const StepOptions& options, Clock clock = nullptr);
 
  private:
   struct Impl;
-  Impl* impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace argil::fem

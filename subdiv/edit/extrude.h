@@ -1,8 +1,6 @@
 #pragma once
-// Topology edits within a transaction. Each works on any faces (also non-quadrilaterals) and gives the new
-// geometry.
+// Extrusion of boundary faces of any size (papers/004 §3.1: how a coarse solid is built), within a transaction.
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -20,8 +18,16 @@ struct Extrusion {
 
 /// Grows one cell a face and step from a region of boundary faces; neighbouring faces of the region share walls.
 /// Positions are the caller's: new vertex i of step s stands where its source stood, moved by s / steps of the
-/// vector.
-/// @throws Error (bad_topology) for an interior or dead face, or where a wall would meet an existing face wrongly.
+/// vector. Faces that touch only at a vertex keep touching along the edge that it leaves behind.
+///
+/// Sharpness: edges and corners of the region pass theirs on to the last caps and keep it while they are boundary;
+/// what becomes interior loses it. A corner (a sharp vertex, or one where three or more sharp edges meet) leaves
+/// sharp edges behind it along the walls; the rings between steps stay smooth. So a leg from the sharp corner of a
+/// box continues the corner's edge, and what lay smooth within a face stays smooth.
+///
+/// @throws Error before anything is changed: (bad_input) for no faces, a face given twice or steps < 1; (not_found)
+/// for a dead face; (bad_topology) for an interior face, and where faces of the region meet at an edge of a
+/// non-manifold boundary so that their walls would lie on the same side of one another. Cost O(new corners).
 [[nodiscard]] Extrusion extrude(Transaction& transaction, std::span<const FaceId> faces, int steps);
 
 }  // namespace argil::subdiv

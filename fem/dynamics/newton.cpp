@@ -1,0 +1,211 @@
+#include "fem/dynamics/newton.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fem/parallel.h"
+#include "fem/solvers/pcg.h"
+#include "fem/solvers/stencil_product.h"
+#include "subdiv/error.h"
+
+namespace argil::fem {
+
+namespace {
+
+constexpr double k_armijo = 1e-4;
+constexpr int k_halvings = 24;
+constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
+
+double dot(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+/// Adds the time that passes until it dies to a part of the report.
+class Stopwatch {
+ public:
+  Stopwatch(Clock clock, double& milliseconds)
+      : clock_(clock), milliseconds_(milliseconds), start_(clock ? clock() : 0) {}
+  ~Stopwatch() {
+    if (clock_) milliseconds_ += 1e3 * (clock_() - start_);
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  Clock clock_;
+  double& milliseconds_;
+  double start_;
+};
+
+void mask(const std::vector<std::uint8_t>& free, Eigen::Matrix3Xd& values) {
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (!free[i]) values.col(static_cast<Eigen::Index>(i)).setZero();
+}
+
+/// result += sign · matrix · values, for a symmetric matrix: one column a sum, in parallel.
+void add_symmetric_product(const Eigen::SparseMatrix<double>& matrix, const Eigen::Matrix3Xd& values, double sign,
+                           Eigen::Matrix3Xd& result) {
+  parallel_for(static_cast<std::size_t>(matrix.outerSize()), 256, [&](std::size_t c) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, static_cast<Eigen::Index>(c)); it; ++it)
+      sum += it.value() * values.col(it.row());
+    result.col(static_cast<Eigen::Index>(c)) += sign * sum;
+  });
+}
+
+[[noreturn]] void fail_not_finite() {
+  throw Error(
+      ErrorCode::not_converged,
+      "The step met a value that is not finite. Take smaller steps, lower the loads, or look for cells that "
+      "are inside out; the body is as it was before the step.");
+}
+
+/// Φ(p + length · direction) − Φ(p). The quadratic part is taken exactly, so that it does not cancel.
+struct LineFunction {
+  double slope = 0;      // of all but the elastic energy
+  double curvature = 0;  // likewise
+  double start_energy = 0;
+  double change(double length, double energy) const {
+    return length * slope + 0.5 * length * length * curvature + (energy - start_energy);
+  }
+};
+
+}  // namespace
+
+void Potential::force(const Eigen::Matrix3Xd& p, Eigen::Matrix3Xd& result, double* held) const {
+  Eigen::Matrix3Xd x, node_forces;
+  multiply(rest->rows, p, x);
+  model->forces(x, node_forces);
+  multiply(rest->rows_transposed, node_forces, result);
+  result += constant_force;
+  if (inertia->size() > 0) add_symmetric_product(*inertia, p - anchor, -1.0, result);
+  add_spring_forces(*springs, p, result);
+  if (held) {
+    double sum = 0;
+    for (std::size_t i = 0; i < free->size(); ++i)
+      if (!(*free)[i]) sum += result.col(static_cast<Eigen::Index>(i)).squaredNorm();
+    *held = std::sqrt(sum);
+  }
+  mask(*free, result);
+}
+
+double Potential::elastic_energy(const Eigen::Matrix3Xd& p) const {
+  Eigen::Matrix3Xd x;
+  multiply(rest->rows, p, x);
+  return model->energy(x);
+}
+
+void Potential::constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const {
+  result.setZero(3, direction.cols());
+  if (inertia->size() > 0) add_symmetric_product(*inertia, direction, 1.0, result);
+  for (const AnchorSpring& spring : *springs) {
+    const Eigen::Vector3d force = spring.stiffness * held_point(spring, direction);
+    for (std::size_t e = 0; e < spring.control_points.size(); ++e)
+      result.col(static_cast<Eigen::Index>(spring.control_points[e])) += spring.weights[e] * force;
+  }
+}
+
+double Potential::rounding(const Eigen::Matrix3Xd& p) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < free->size(); ++i) {
+    const auto c = static_cast<Eigen::Index>(i);
+    double diagonal = rest->diagonal[i].diagonal().maxCoeff();
+    if (inertia->size() > 0) diagonal += inertia->coeff(c, c);
+    sum += p.col(c).squaredNorm() * diagonal * diagonal;
+  }
+  return 4 * k_epsilon * std::sqrt(sum);
+}
+
+void minimise(const Potential& potential, const Preconditioner& preconditioner, const NewtonOptions& options,
+              Eigen::Matrix3Xd& p, StepReport& report, Clock clock) {
+  const bool has_energy = potential.model->promises().has_energy;
+  Eigen::Matrix3Xd force, trial_force, direction, product, node_direction, node_product;
+  double held = 0;
+  {
+    Stopwatch watch(clock, report.ms_forces);
+    potential.force(p, force, &held);
+  }
+  const double first = force.norm();
+  double residual = first;
+  if (!std::isfinite(first)) fail_not_finite();
+  report.preconditioner = preconditioner.kind();
+  report.converged = false;
+  bool projected = !options.full_tangent;
+  int iterations = 0;
+  while (true) {
+    const double load = std::max(potential.constant_force.norm(), held);
+    const double reference = options.against_loads && load > 0 ? load : first;
+    report.residual = reference > 0 ? residual / reference : 0;
+    if (residual <= std::max(options.tolerance * reference, potential.rounding(p))) {
+      report.converged = true;
+      return;
+    }
+    if (iterations == options.cap) return;
+    ++iterations;
+    ++report.newton_iterations;
+
+    const auto solve = [&] {
+      Eigen::Matrix3Xd x;
+      multiply(potential.rest->rows, p, x);
+      std::unique_ptr<Tangent> tangent;
+      {
+        Stopwatch watch(clock, report.ms_tangent);
+        tangent = potential.model->tangent(x, projected ? Projection::positive_semidefinite : Projection::none);
+      }
+      Stopwatch watch(clock, report.ms_solve);
+      const LinearOutcome linear = pcg(
+          [&](const Eigen::Matrix3Xd& d, Eigen::Matrix3Xd& result) {
+            multiply(potential.rest->rows, d, node_direction);
+            tangent->stiffness_product(node_direction, node_product);
+            multiply(potential.rest->rows_transposed, node_product, result);
+            potential.constant_stiffness_product(d, product);
+            result += product;
+            mask(*potential.free, result);
+          },
+          preconditioner, force, direction, options.linear_tolerance, options.linear_cap);
+      report.linear_iterations += linear.iterations;
+      return linear;
+    };
+    if (solve().negative_curvature && !projected) {
+      projected = true;
+      static_cast<void>(solve());
+    }
+    projected = !options.full_tangent;
+
+    Stopwatch watch(clock, report.ms_line_search);
+    const double descent = -dot(force, direction);  // Φ's slope along the direction
+    if (!std::isfinite(descent)) fail_not_finite();
+    double length = 1;
+    bool accepted = false;
+    LineFunction line;
+    if (has_energy) {
+      Eigen::Matrix3Xd x, node_forces, elastic;
+      multiply(potential.rest->rows, p, x);
+      line.start_energy = potential.model->energy(x);
+      potential.model->forces(x, node_forces);
+      multiply(potential.rest->rows_transposed, node_forces, elastic);
+      line.slope = descent + dot(elastic, direction);
+      potential.constant_stiffness_product(direction, product);
+      line.curvature = dot(direction, product);
+    }
+    Eigen::Matrix3Xd trial;
+    for (int halving = 0; halving <= k_halvings && !accepted; ++halving, length *= 0.5) {
+      trial = p + length * direction;
+      if (has_energy) {
+        const double energy = potential.elastic_energy(trial);
+        const double slack = 64 * k_epsilon * (std::abs(energy) + std::abs(line.start_energy));
+        accepted = line.change(length, energy) <= k_armijo * length * descent + slack;
+      } else {
+        potential.force(trial, trial_force);
+        accepted = trial_force.norm() <= (1 - k_armijo * length) * residual;
+      }
+    }
+    if (!accepted) return;
+    p = trial;
+    potential.force(p, force, &held);
+    residual = force.norm();
+    if (!std::isfinite(residual)) fail_not_finite();
+  }
+}
+
+}  // namespace argil::fem

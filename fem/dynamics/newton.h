@@ -1,0 +1,46 @@
+#pragma once
+// Newton's method with line search on the incremental potential of a time step (METHODS §5), or on the potential
+// energy in statics:
+//   Φ(p) = ½ (p − p̄)ᵀ C (p − p̄) − gᵀ p + Ψ(A p) + springs,   C = M̃/c² + D̃/c,   g = M̃ v̄/c + loads.
+
+#include <Eigen/SparseCore>
+
+#include "fem/dynamics/integrator.h"
+#include "fem/solvers/rest_operator.h"
+
+namespace argil::fem {
+
+struct Potential {
+  const ForceModel* model = nullptr;
+  const RestOperator* rest = nullptr;          // its rows are those that elements name
+  const Eigen::SparseMatrix<double>* inertia;  // C; empty in statics
+  Eigen::Matrix3Xd anchor;                     // p̄; unused in statics
+  Eigen::Matrix3Xd constant_force;             // g
+  const std::vector<AnchorSpring>* springs = nullptr;
+  const std::vector<std::uint8_t>* free = nullptr;
+
+  /// −∂Φ/∂p in the free control points, zero elsewhere; `held` (if given) gets the 2-norm of the same in the
+  /// others, which is the size of the reactions.
+  void force(const Eigen::Matrix3Xd& p, Eigen::Matrix3Xd& result, double* held = nullptr) const;
+  [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& p) const;
+  /// (C + springs) · direction: the part of the Hessian that does not change.
+  void constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const;
+  /// Norm of the rounding error of the force: machine precision times the terms that cancel in it.
+  [[nodiscard]] double rounding(const Eigen::Matrix3Xd& p) const;
+};
+
+struct NewtonOptions {
+  int cap = 3;
+  double tolerance = 1e-4;     // of the first residual, or of `reference` if that is given
+  bool against_loads = false;  // statics: relative to the loads and reactions
+  bool full_tangent = false;   // try the tangent as it is, and project it only where it is indefinite
+  double linear_tolerance = 1e-4;
+  int linear_cap = 2000;
+};
+
+/// Minimises from `p`, which moves to the last iterate; counts and times are added to `report`.
+/// @throws Error (not_converged) if a value is not finite.
+void minimise(const Potential& potential, const Preconditioner& preconditioner, const NewtonOptions& options,
+              Eigen::Matrix3Xd& p, StepReport& report, Clock clock);
+
+}  // namespace argil::fem

@@ -1,0 +1,223 @@
+#include "fem/models/corotational_kernels.h"
+
+#include "fem/models/lane_polar.h"
+#include "fem/models/packet_shapes.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace argil::fem {
+namespace {
+
+struct PointMaterial {
+  Lanes mu, lambda;
+};
+
+ARGIL_LANES_INLINE PointMaterial material(const PacketArguments& a, std::size_t packet, std::size_t point,
+                                          std::size_t points) {
+  PointMaterial m;
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    const std::size_t element = packet * k_lanes + lane;
+    const std::size_t index = (element < a.element_count ? element : a.element_count - 1) * points + point;
+    m.mu[lane] = a.mu[index];
+    m.lambda[lane] = a.lambda[index];
+  }
+  return m;
+}
+
+/// Runs body(point, rest jacobian, material, volume, gradient) at every point of one packet.
+template <class Shape, class Body>
+ARGIL_LANES_INLINE void at_points(const PacketArguments& a, std::size_t packet, const Shape& shape,
+                                  const Body& body) {
+  const std::size_t points = static_cast<std::size_t>(shape.point_count());
+  for (std::size_t p = 0; p < points; ++p) {
+    const std::size_t index = packet * points + p;
+    const LaneMatrix jacobian = load_matrix(a.jacobians + 9 * index);
+    LaneMatrix gradient;
+    shape.gradient(static_cast<int>(p), gradient);
+    body(p, index, jacobian, product(gradient, jacobian));
+  }
+}
+
+ARGIL_LANES_INLINE const std::uint32_t* packet_nodes(const PacketArguments& a, std::size_t packet) {
+  return a.nodes + packet * static_cast<std::size_t>(a.kind->node_count) * k_lanes;
+}
+ARGIL_LANES_INLINE FourDoubles* packet_slots(const PacketArguments& a, std::size_t packet) {
+  return a.slots + packet * static_cast<std::size_t>(a.kind->node_count) * 3;
+}
+ARGIL_LANES_INLINE Lanes sum(const LaneVector& a) {
+  return a.m[0] + a.m[1] + a.m[2];
+}
+
+ARGIL_LANES_INLINE Lanes inner(const LaneMatrix& a, const LaneMatrix& b) {
+  Lanes result = a.m[0] * b.m[0];
+  for (int i = 1; i < 9; ++i) result += a.m[i] * b.m[i];
+  return result;
+}
+
+struct Energy {
+  template <class Shape>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Shape shape(*a.kind);
+    const std::size_t points = static_cast<std::size_t>(shape.point_count());
+    for (std::size_t packet = begin; packet < end; ++packet) {
+      shape.gather(a.x, packet_nodes(a, packet));
+      shape.differentiate();
+      Lanes total = broadcast(0);
+      at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
+        const PointMaterial m = material(a, packet, p, points);
+        LaneMatrix rotation;
+        nearest_rotation(f, rotation);
+        const Lanes trace = inner(rotation, f) - 3.0;
+        Lanes square = broadcast(0);
+        for (int i = 0; i < 9; ++i) square += (f.m[i] - rotation.m[i]) * (f.m[i] - rotation.m[i]);
+        total += load(a.volumes + index) * (m.mu * square + 0.5 * m.lambda * (trace * trace));
+      });
+      store(a.energies + packet, total);
+    }
+  }
+};
+
+struct Forces {
+  template <class Shape>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Shape shape(*a.kind), stresses(*a.kind);
+    const std::size_t points = static_cast<std::size_t>(shape.point_count());
+    for (std::size_t packet = begin; packet < end; ++packet) {
+      shape.gather(a.x, packet_nodes(a, packet));
+      shape.differentiate();
+      stresses.clear();
+      at_points(a, packet, shape,
+                [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& f) {
+                  const PointMaterial m = material(a, packet, p, points);
+                  LaneMatrix rotation;
+                  nearest_rotation(f, rotation);
+                  const Lanes volume = load(a.volumes + index);
+                  const Lanes shear = -2.0 * m.mu * volume;
+                  const Lanes pressure = -m.lambda * volume * (inner(rotation, f) - 3.0);
+                  LaneMatrix stress;
+                  for (int i = 0; i < 9; ++i)
+                    stress.m[i] = shear * (f.m[i] - rotation.m[i]) + pressure * rotation.m[i];
+                  stresses.add(static_cast<int>(p), product(stress, transposed(jacobian)));
+                });
+      stresses.integrate();
+      stresses.scatter(packet_slots(a, packet));
+    }
+  }
+};
+
+struct TangentAtState {
+  template <class Shape>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Shape shape(*a.kind);
+    const std::size_t points = static_cast<std::size_t>(shape.point_count());
+    for (std::size_t packet = begin; packet < end; ++packet) {
+      shape.gather(a.x, packet_nodes(a, packet));
+      shape.differentiate();
+      at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
+        const PointMaterial m = material(a, packet, p, points);
+        LaneSvd svd;
+        signed_svd(f, svd);
+        const LaneMatrix rotation = outer_sum(svd.u, svd.v);
+        const Lanes volume = load(a.volumes + index);
+        const Lanes k = m.lambda * (sum(svd.sigma) - 3.0) - 2.0 * m.mu;
+        LaneVector twist;  // of the twists about v_i, over |w|²; the whole form is 2μ + 2 twist along them
+        for (int i = 0; i < 3; ++i) {
+          const Lanes pair = svd.sigma.m[(i + 1) % 3] + svd.sigma.m[(i + 2) % 3];
+          twist.m[i] = k / larger(pair, broadcast(k_least_pair));
+          if (a.clamp_twist) twist.m[i] = larger(twist.m[i], -m.mu);
+          twist.m[i] = twist.m[i] * volume;
+        }
+        const LaneMatrix t = outer_sum(svd.v, svd.v, twist);
+        FourDoubles* to = a.tangent + index * k_tangent_entries;
+        for (int i = 0; i < 9; ++i) store(to + i, rotation.m[i]);
+        constexpr int k_entries[6] = {0, 4, 8, 1, 2, 5};
+        for (int i = 0; i < 6; ++i) store(to + 9 + i, t.m[k_entries[i]]);
+        store(to + 15, 2.0 * m.mu * volume);
+        store(to + 16, m.lambda * volume);
+      });
+    }
+  }
+  // σ_j + σ_k of a flat, mirrored element may vanish, where the energy has no second derivative.
+  static constexpr double k_least_pair = 1e-6;
+};
+
+struct Product {
+  template <class Shape>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Shape shape(*a.kind), stresses(*a.kind);
+    for (std::size_t packet = begin; packet < end; ++packet) {
+      shape.gather(a.x, packet_nodes(a, packet));
+      shape.differentiate();
+      stresses.clear();
+      at_points(a, packet, shape,
+                [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& df) {
+                  const FourDoubles* t = a.tangent + index * k_tangent_entries;
+                  const LaneMatrix rotation = load_matrix(t);
+                  const LaneMatrix b = product(transposed(rotation), df);
+                  const Lanes wx = b.m[7] - b.m[5], wy = b.m[2] - b.m[6], wz = b.m[3] - b.m[1];
+                  const Lanes txy = load(t + 12), txz = load(t + 13), tyz = load(t + 14);
+                  const Lanes tx = load(t + 9) * wx + txy * wy + txz * wz;
+                  const Lanes ty = txy * wx + load(t + 10) * wy + tyz * wz;
+                  const Lanes tz = txz * wx + tyz * wy + load(t + 11) * wz;
+                  const Lanes shear = load(t + 15);
+                  const Lanes pressure = load(t + 16) * (b.m[0] + b.m[4] + b.m[8]);
+                  const LaneMatrix stress = {{shear * b.m[0] + pressure, shear * b.m[1] - tz, shear * b.m[2] + ty,
+                                              shear * b.m[3] + tz, shear * b.m[4] + pressure, shear * b.m[5] - tx,
+                                              shear * b.m[6] - ty, shear * b.m[7] + tx, shear * b.m[8] + pressure}};
+                  stresses.add(static_cast<int>(p), product(product(rotation, stress), transposed(jacobian)));
+                });
+      stresses.integrate();
+      stresses.scatter(packet_slots(a, packet));
+    }
+  }
+};
+
+template <class Operation, class Shape>
+__attribute__((flatten)) void run_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
+  Operation::template run<Shape>(a, begin, end);
+}
+#if defined(__x86_64__)
+template <class Operation, class Shape>
+__attribute__((target("avx2"), flatten)) void run_avx2(const PacketArguments& a, std::size_t begin,
+                                                       std::size_t end) {
+  Operation::template run<Shape>(a, begin, end);
+}
+#endif
+
+template <class Shape>
+CorotationalKernels kernels_for(Instructions instructions) {
+#if defined(__x86_64__)
+  if (instructions == Instructions::best && __builtin_cpu_supports("avx2"))
+    return {run_avx2<Energy, Shape>, run_avx2<Forces, Shape>, run_avx2<TangentAtState, Shape>,
+            run_avx2<Product, Shape>};
+#endif
+  (void)instructions;
+  return {run_baseline<Energy, Shape>, run_baseline<Forces, Shape>, run_baseline<TangentAtState, Shape>,
+          run_baseline<Product, Shape>};
+}
+
+}  // namespace
+
+CorotationalKernels corotational_kernels(const ElementKind& kind, Instructions instructions) {
+  if (&kind == &trilinear_hexahedron()) return kernels_for<TrilinearShape>(instructions);
+  if (&kind == &pyramid()) return kernels_for<PyramidShape>(instructions);
+  if (&kind == &bspline_hexahedron()) return kernels_for<TricubicShape>(instructions);
+  return kernels_for<DenseShape>(instructions);
+}
+
+void linear_tangent(const PacketArguments& a, std::size_t begin_packet, std::size_t end_packet) {
+  const std::size_t points = static_cast<std::size_t>(a.kind->point_count);
+  for (std::size_t packet = begin_packet; packet < end_packet; ++packet)
+    for (std::size_t p = 0; p < points; ++p) {
+      const PointMaterial m = material(a, packet, p, points);
+      const std::size_t index = packet * points + p;
+      const Lanes volume = load(a.volumes + index);
+      FourDoubles* to = a.tangent + index * k_tangent_entries;
+      for (int i = 0; i < 9; ++i) store(to + i, broadcast(i % 4 == 0));
+      for (int i = 0; i < 6; ++i) store(to + 9 + i, i < 3 ? -m.mu * volume : broadcast(0));
+      store(to + 15, 2.0 * m.mu * volume);
+      store(to + 16, m.lambda * volume);
+    }
+}
+
+}  // namespace argil::fem

@@ -1,0 +1,22 @@
+#include "subdiv/edit/remove.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "subdiv/error.h"
+
+namespace argil::subdiv {
+
+void remove_cells(Transaction& transaction, std::span<const CellId> cells) {
+  std::vector<CellId> sorted(cells.begin(), cells.end());
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (!transaction.solid().is_live(sorted[i]) || (i > 0 && sorted[i] == sorted[i - 1]))
+      throw Error(ErrorCode::not_found,
+                  fmt::format("cell {} to remove is not there or given twice; select cells again", sorted[i].value),
+                  fmt::format("cell {}", sorted[i].value));
+  for (const CellId c : sorted) transaction.remove_cell(c);
+}
+
+}  // namespace argil::subdiv
