@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fem/parallel.h"
 #include "fem/solvers/pcg.h"
@@ -72,21 +73,21 @@ struct LineFunction {
 
 }  // namespace
 
-void Potential::force(const Eigen::Matrix3Xd& p, Eigen::Matrix3Xd& result, double* held) const {
+Forces Potential::forces(const Eigen::Matrix3Xd& p) const {
+  Forces result;
   Eigen::Matrix3Xd x, node_forces;
   multiply(rest->rows, p, x);
   model->forces(x, node_forces);
-  multiply(rest->rows_transposed, node_forces, result);
-  result += constant_force;
-  if (inertia->size() > 0) add_symmetric_product(*inertia, p - anchor, -1.0, result);
-  add_spring_forces(*springs, p, result);
-  if (held) {
-    double sum = 0;
-    for (std::size_t i = 0; i < free->size(); ++i)
-      if (!(*free)[i]) sum += result.col(static_cast<Eigen::Index>(i)).squaredNorm();
-    *held = std::sqrt(sum);
-  }
-  mask(*free, result);
+  multiply(rest->rows_transposed, node_forces, result.elastic);
+  result.total = result.elastic + constant_force;
+  if (inertia->size() > 0) add_symmetric_product(*inertia, p - anchor, -1.0, result.total);
+  add_spring_forces(*springs, p, result.total);
+  double sum = 0;
+  for (std::size_t i = 0; i < free->size(); ++i)
+    if (!(*free)[i]) sum += result.total.col(static_cast<Eigen::Index>(i)).squaredNorm();
+  result.held = std::sqrt(sum);
+  mask(*free, result.total);
+  return result;
 }
 
 double Potential::elastic_energy(const Eigen::Matrix3Xd& p) const {
@@ -116,95 +117,113 @@ double Potential::rounding(const Eigen::Matrix3Xd& p) const {
   return 4 * k_epsilon * std::sqrt(sum);
 }
 
+namespace {
+
+/// One Newton direction: solves with the tangent at p, projected if need be.
+class DirectionSolver {
+ public:
+  DirectionSolver(const Potential& potential, const Preconditioner& preconditioner, const NewtonOptions& options,
+                  StepReport& report, Clock clock)
+      : potential_(potential), preconditioner_(preconditioner), options_(options), report_(report), clock_(clock) {}
+
+  const Eigen::Matrix3Xd& operator()(const Eigen::Matrix3Xd& p, const Eigen::Matrix3Xd& force) {
+    if (options_.full_tangent && solve(p, force, Projection::none)) return direction_;
+    static_cast<void>(solve(p, force, Projection::positive_semidefinite));
+    return direction_;
+  }
+
+ private:
+  /// False if the tangent has a direction of negative curvature.
+  bool solve(const Eigen::Matrix3Xd& p, const Eigen::Matrix3Xd& force, Projection projection) {
+    std::unique_ptr<Tangent> tangent;
+    {
+      Stopwatch watch(clock_, report_.ms_tangent);
+      multiply(potential_.rest->rows, p, node_direction_);
+      tangent = potential_.model->tangent(node_direction_, projection);
+    }
+    Stopwatch watch(clock_, report_.ms_solve);
+    const LinearOutcome linear = pcg(
+        [&](const Eigen::Matrix3Xd& d, Eigen::Matrix3Xd& result) {
+          multiply(potential_.rest->rows, d, node_direction_);
+          tangent->stiffness_product(node_direction_, node_product_);
+          multiply(potential_.rest->rows_transposed, node_product_, result);
+          potential_.constant_stiffness_product(d, product_);
+          result += product_;
+          mask(*potential_.free, result);
+        },
+        preconditioner_, force, direction_, options_.linear_tolerance, options_.linear_cap);
+    report_.linear_iterations += linear.iterations;
+    return !linear.negative_curvature;
+  }
+
+  const Potential& potential_;
+  const Preconditioner& preconditioner_;
+  const NewtonOptions& options_;
+  StepReport& report_;
+  Clock clock_;
+  Eigen::Matrix3Xd direction_, node_direction_, node_product_, product_;
+};
+
+}  // namespace
+
 void minimise(const Potential& potential, const Preconditioner& preconditioner, const NewtonOptions& options,
               Eigen::Matrix3Xd& p, StepReport& report, Clock clock) {
   const bool has_energy = potential.model->promises().has_energy;
-  Eigen::Matrix3Xd force, trial_force, direction, product, node_direction, node_product;
-  double held = 0;
+  DirectionSolver solve(potential, preconditioner, options, report, clock);
+  Forces forces;
+  std::optional<double> energy;  // at p
+  Eigen::Matrix3Xd product;
   {
     Stopwatch watch(clock, report.ms_forces);
-    potential.force(p, force, &held);
+    forces = potential.forces(p);
   }
-  const double first = force.norm();
-  double residual = first;
-  if (!std::isfinite(first)) fail_not_finite();
+  double residual = forces.total.norm();
+  const double first = residual;
   report.preconditioner = preconditioner.kind();
   report.converged = false;
-  bool projected = !options.full_tangent;
-  int iterations = 0;
-  while (true) {
-    const double load = std::max(potential.constant_force.norm(), held);
+  for (int iteration = 0;; ++iteration) {
+    if (!std::isfinite(residual)) fail_not_finite();
+    const double load = std::max(potential.constant_force.norm(), forces.held);
     const double reference = options.against_loads && load > 0 ? load : first;
     report.residual = reference > 0 ? residual / reference : 0;
     if (residual <= std::max(options.tolerance * reference, potential.rounding(p))) {
       report.converged = true;
       return;
     }
-    if (iterations == options.cap) return;
-    ++iterations;
+    if (iteration == options.cap) return;
     ++report.newton_iterations;
-
-    const auto solve = [&] {
-      Eigen::Matrix3Xd x;
-      multiply(potential.rest->rows, p, x);
-      std::unique_ptr<Tangent> tangent;
-      {
-        Stopwatch watch(clock, report.ms_tangent);
-        tangent = potential.model->tangent(x, projected ? Projection::positive_semidefinite : Projection::none);
-      }
-      Stopwatch watch(clock, report.ms_solve);
-      const LinearOutcome linear = pcg(
-          [&](const Eigen::Matrix3Xd& d, Eigen::Matrix3Xd& result) {
-            multiply(potential.rest->rows, d, node_direction);
-            tangent->stiffness_product(node_direction, node_product);
-            multiply(potential.rest->rows_transposed, node_product, result);
-            potential.constant_stiffness_product(d, product);
-            result += product;
-            mask(*potential.free, result);
-          },
-          preconditioner, force, direction, options.linear_tolerance, options.linear_cap);
-      report.linear_iterations += linear.iterations;
-      return linear;
-    };
-    if (solve().negative_curvature && !projected) {
-      projected = true;
-      static_cast<void>(solve());
-    }
-    projected = !options.full_tangent;
+    const Eigen::Matrix3Xd& direction = solve(p, forces.total);
 
     Stopwatch watch(clock, report.ms_line_search);
-    const double descent = -dot(force, direction);  // Φ's slope along the direction
+    const double descent = -dot(forces.total, direction);  // Φ's slope along the direction
     if (!std::isfinite(descent)) fail_not_finite();
-    double length = 1;
-    bool accepted = false;
     LineFunction line;
     if (has_energy) {
-      Eigen::Matrix3Xd x, node_forces, elastic;
-      multiply(potential.rest->rows, p, x);
-      line.start_energy = potential.model->energy(x);
-      potential.model->forces(x, node_forces);
-      multiply(potential.rest->rows_transposed, node_forces, elastic);
-      line.slope = descent + dot(elastic, direction);
+      if (!energy) energy = potential.elastic_energy(p);
+      line.start_energy = *energy;
+      line.slope = descent + dot(forces.elastic, direction);
       potential.constant_stiffness_product(direction, product);
       line.curvature = dot(direction, product);
     }
     Eigen::Matrix3Xd trial;
+    Forces trial_forces;
+    bool accepted = false;
+    double length = 1;
     for (int halving = 0; halving <= k_halvings && !accepted; ++halving, length *= 0.5) {
       trial = p + length * direction;
       if (has_energy) {
-        const double energy = potential.elastic_energy(trial);
-        const double slack = 64 * k_epsilon * (std::abs(energy) + std::abs(line.start_energy));
-        accepted = line.change(length, energy) <= k_armijo * length * descent + slack;
+        energy = potential.elastic_energy(trial);
+        const double slack = 64 * k_epsilon * (std::abs(*energy) + std::abs(line.start_energy));
+        accepted = line.change(length, *energy) <= k_armijo * length * descent + slack;
       } else {
-        potential.force(trial, trial_force);
-        accepted = trial_force.norm() <= (1 - k_armijo * length) * residual;
+        trial_forces = potential.forces(trial);
+        accepted = trial_forces.total.norm() <= (1 - k_armijo * length) * residual;
       }
     }
     if (!accepted) return;
     p = trial;
-    potential.force(p, force, &held);
-    residual = force.norm();
-    if (!std::isfinite(residual)) fail_not_finite();
+    forces = has_energy ? potential.forces(p) : std::move(trial_forces);
+    residual = forces.total.norm();
   }
 }
 

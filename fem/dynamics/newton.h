@@ -10,6 +10,12 @@
 
 namespace argil::fem {
 
+struct Forces {
+  Eigen::Matrix3Xd total;    // −∂Φ/∂p in the free control points, zero elsewhere
+  Eigen::Matrix3Xd elastic;  // Aᵀ f of the model, everywhere
+  double held = 0;           // 2-norm of −∂Φ/∂p in the other control points: the size of the reactions
+};
+
 struct Potential {
   const ForceModel* model = nullptr;
   const RestOperator* rest = nullptr;          // its rows are those that elements name
@@ -19,9 +25,7 @@ struct Potential {
   const std::vector<AnchorSpring>* springs = nullptr;
   const std::vector<std::uint8_t>* free = nullptr;
 
-  /// −∂Φ/∂p in the free control points, zero elsewhere; `held` (if given) gets the 2-norm of the same in the
-  /// others, which is the size of the reactions.
-  void force(const Eigen::Matrix3Xd& p, Eigen::Matrix3Xd& result, double* held = nullptr) const;
+  [[nodiscard]] Forces forces(const Eigen::Matrix3Xd& p) const;
   [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& p) const;
   /// (C + springs) · direction: the part of the Hessian that does not change.
   void constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const;

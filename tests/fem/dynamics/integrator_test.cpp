@@ -32,12 +32,12 @@ bool same_bits(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
-/// Error of an oscillating mass against cos ωt after one and a quarter periods in `steps` steps.
+/// Error of an oscillating mass against cos ωt at a time when its cosine and sine are both large.
 double oscillator_error(Method method, int steps) {
   test::SpringBody body(1.0, 4.0, 1.0);  // ω = 2
   body.state.positions(0, 1) = 1.1;
   Integrator integrator(body.system);
-  const double duration = 1.25 * std::numbers::pi;
+  const double duration = 1.25 * std::numbers::pi + 0.4;
   for (int i = 0; i < steps; ++i)
     integrator.step({}, body.state, duration / steps, tight(method));
   return std::abs(body.state.positions(0, 1) - (1 + 0.1 * std::cos(2 * duration)));
@@ -120,7 +120,9 @@ TEST(Integrator, PinsDoNotMoveAndReactionsBalanceTheLoad) {
   EXPECT_GT((solid.state.positions - solid.rest).norm(), 1e-3);
   integrator.solve_static(loads, solid.state, {});
   for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
-    if (solid.system.fixed[static_cast<std::size_t>(i)]) EXPECT_EQ(solid.state.positions.col(i), solid.rest.col(i));
+    if (solid.system.fixed[static_cast<std::size_t>(i)]) {
+      EXPECT_EQ(solid.state.positions.col(i), solid.rest.col(i));
+    }
   const Eigen::Matrix3Xd reaction = reactions(solid.system, loads, solid.state.positions);
   const double weight = solid.discretization.total_mass * 9.81;
   // Equilibrium to 1e-8 of the load in every free point.
