@@ -120,6 +120,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   Scene scene;
   if (request.style == PictureStyle::solid) {
     scene.surface = request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
+    if (request.control_wire) keep_wire_between(scene.surface, control_cells(document.refinement()));
   } else {
     scene.surface = cells_surface(solid, positions);
     scene.surface.wire.clear();

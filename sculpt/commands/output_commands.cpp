@@ -109,7 +109,9 @@ void render(Session& session, const Arguments& arguments) {
   }
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
-  options.wireframe = !arguments.has("smooth");
+  const std::string wire = arguments.word("wire", "cells");
+  options.wireframe = wire != "none";
+  request.control_wire = wire == "control";
   options.light_theme = arguments.has("light");
   const std::string& name = arguments.word("file");
   if (!name.ends_with(".png"))
@@ -173,7 +175,8 @@ std::vector<Command> output_commands() {
             {.name = "style", .type = ArgumentType::word, .help = "how", .choices = {"solid", "wireframe", "boundary_wireframe"}},
             {.name = "cage", .help = "with the control cage", .flag = true},
             {.name = "plain", .help = "without arrows and pins", .flag = true},
-            {.name = "smooth", .help = "without the wires of cells", .flag = true},
+            {.name = "wire", .type = ArgumentType::word, .help = "edges drawn: of the finest cells, of the control cells, none",
+             .choices = {"cells", "control", "none"}},
             {.name = "light", .help = "on light ground", .flag = true},
             {.name = "size", .type = ArgumentType::integer, .help = "width and height", .unit = "px", .count = 2, .low = 1,
              .high = 4096},
