@@ -51,7 +51,9 @@ class ForceModel {
 };
 
 /// Ψ = μ|F−R|² + λ/2 (tr(RᵀF) − 3)² per quadrature point, R from the polar decomposition with det R = +1 (METHODS
-/// §4). The blocks must outlive the model. `rest_nodes` is 3 x nodes.
+/// §4). The blocks must outlive the model: nodes and rest geometry are taken now, mu and lambda are read at each
+/// call, so that painting needs no new model; a tangent keeps the material that it was made with. `rest_nodes` is
+/// 3 x nodes. The functions of one model, and those of one tangent, share working memory: one call at a time.
 [[nodiscard]] std::unique_ptr<ForceModel> make_corotational(std::span<const ElementBlock> blocks,
                                                             const Eigen::Matrix3Xd& rest_nodes);
 /// Small-strain linear elasticity in fixed axes: a reference, wrong under rotation.

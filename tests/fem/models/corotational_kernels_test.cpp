@@ -115,6 +115,23 @@ TEST(CorotationalKernels, ThreadsDoNotChangeABit) {
   }
 }
 
+TEST(CorotationalKernels, TangentsKeepTheirStateWhileOthersComeAndGo) {
+  const Body body = test::mixed(3, 0.1);
+  const Eigen::Matrix3Xd x = crushed(body), dx = test::random_vectors(x.cols(), 1, 59);
+  auto model = make_corotational(body.blocks, body.rest);
+  const auto kept = model->tangent(x, Projection::none);
+  Eigen::Matrix3Xd before, after, other;
+  kept->stiffness_product(dx, before);
+  model->tangent(body.rest, Projection::none)->stiffness_product(dx, other);  // gives its memory back
+  const auto recycled = model->tangent(x, Projection::none);
+  recycled->stiffness_product(dx, after);
+  EXPECT_EQ(before, after);
+  model.reset();  // tangents may outlive their model
+  kept->stiffness_product(dx, after);
+  EXPECT_EQ(before, after);
+  EXPECT_NE(before, other);
+}
+
 TEST(CorotationalKernels, AnIncompleteLastPacketCountsItsElementsOnce) {
   // One to five equal cubes apart from each other: energy and forces are those of one, times their number.
   for (std::size_t count = 1; count <= 5; ++count) {
