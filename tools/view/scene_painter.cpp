@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
-constexpr float k_hidden_pin = 0.55F;
+constexpr float k_hidden_pin = 0.32F;
 // Shorter lines fade, so that a fine mesh does not cover what it lies on [pixels].
 constexpr float k_wire_length = 22, k_cage_length = 8;
 
