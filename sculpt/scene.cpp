@@ -207,7 +207,7 @@ void show_field(Scene& scene, std::span<const double> value_from_vertex, const s
   if (surface.values.empty()) low = high = 0;
   if (low > 0 && low < 0.5 * high) low = 0;
   if (high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) {
-    const double step = round_step(high - low, 10);
+    const double step = round_step(high - low, k_legend_parts);
     low = step * std::floor(low / step + 1e-9);
     high = step * std::ceil(high / step - 1e-9);
   }

@@ -41,6 +41,9 @@ struct ClipPlane {
 /// outlines on the refined surface), and what is sharp.
 void keep_wire_between(SceneSurface& surface, const subdiv::CellData<subdiv::CellId>& group_from_cell);
 
+/// Legends and their ranges are cut into at most so many round parts.
+inline constexpr int k_legend_parts = 8;
+
 /// Colours the surface by a field with one value a vertex of the solid, and gives the scene the legend of its range
 /// on what is shown, rounded outwards to round numbers (from 0 where all are positive and it lies near).
 void show_field(Scene& scene, std::span<const double> value_from_vertex, const std::string& title,

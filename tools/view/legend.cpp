@@ -15,7 +15,6 @@ namespace {
 
 constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
 constexpr float k_bar_height = 250;
-constexpr int k_most_ticks = 6;
 
 /// The unit as written and how many of it one of the legend's is.
 struct Shown {
@@ -72,7 +71,7 @@ std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
 
 double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width) {
   float text = 0;
-  for (const Tick& tick : legend_ticks(legend, k_most_ticks))
+  for (const Tick& tick : legend_ticks(legend, sculpt::k_legend_parts))
     text = std::max(text, font.width(tick.text, k_tick_size * pixel));
   const float beside = text + (k_right + k_bar_width + k_gap + 20) * pixel;
   return static_cast<double>(beside) / width;
@@ -86,9 +85,9 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
   canvas.bar(left, top, right - left, tall, 3 * pixel, [](float y) { return viridis(1 - y); });
   canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
 
-  const int most = std::max(1, static_cast<int>(tall / (34 * pixel)));
+  const int most = std::max(1, static_cast<int>(tall / (26 * pixel)));
   const double range = legend.high - legend.low;
-  for (const Tick& tick : legend_ticks(legend, std::min(most, k_most_ticks))) {
+  for (const Tick& tick : legend_ticks(legend, std::min(most, sculpt::k_legend_parts))) {
     const double part = range > 0 ? (tick.value - legend.low) / range : 0.5;
     const float y = top + tall * static_cast<float>(1 - part);
     canvas.text(left - k_gap * pixel, y + 0.36F * k_tick_size * pixel, k_tick_size * pixel, tick.text,

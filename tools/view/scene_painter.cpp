@@ -11,7 +11,9 @@ namespace {
 constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
-constexpr float k_hidden_pin = 0.55F;
+constexpr float k_hidden_pin = 0.32F;
+// Shorter lines fade, so that a fine mesh does not cover what it lies on [pixels].
+constexpr float k_wire_length = 22, k_cage_length = 8;
 
 using Line = std::array<Eigen::Vector3f, 2>;
 
@@ -93,7 +95,7 @@ void ScenePainter::draw_surface(const Program& program, const Camera& camera) co
 }
 
 void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
-                              float half_width, const Colour& tint, bool fades_when_dense) const {
+                              float half_width, const Colour& tint, float full_length) const {
   if (lines.count() == 0) return;
   const Gl& gl = *gl_;
   const Program& program = line_program_;
@@ -105,10 +107,7 @@ void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, co
   gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
                0.5F * factor * static_cast<float>(sampling.height));
   gl.Uniform1f(program.at("half_width"), half_width * scale);
-  if (fades_when_dense)
-    gl.Uniform2f(program.at("visible_length"), 1.5F * scale, 22 * scale);
-  else
-    gl.Uniform2f(program.at("visible_length"), -2, -1);
+  gl.Uniform2f(program.at("visible_length"), 0.07F * full_length * scale, full_length * scale);
   gl.Uniform3f(program.at("distances"), camera.nearest, camera.farthest, 0.35F);
   set_colour(gl, program.at("tint"), tint);
   lines.bind();
@@ -215,20 +214,16 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   gl.Enable(GL_BLEND);
   gl.DepthMask(GL_FALSE);
   hide_behind_surface(draws_surface_);
-  if (draws_wire_)
-    draw_lines(wire_, camera, sampling, 0.5F,
-               !draws_surface_ ? theme.wire_alone
-               : field_        ? theme.wire_on_field
-                               : theme.wire_on_clay,
-               true);
+  const Colour& wire_tint = !draws_surface_ ? theme.wire_alone : field_ ? theme.wire_on_field : theme.wire_on_clay;
+  if (draws_wire_) draw_lines(wire_, camera, sampling, 0.5F, wire_tint, k_wire_length);
 
   Colour hidden_cage = theme.cage;
   hidden_cage.alpha *= k_hidden;
   hide_behind_surface(false);
-  draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, false);
+  draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
-  draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, false);
+  draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
   draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);

@@ -34,7 +34,7 @@ class ScenePainter {
   void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
   void draw_surface(const Program& program, const Camera& camera) const;
   void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
-                  const Colour& tint, bool fades_when_dense) const;
+                  const Colour& tint, float full_length) const;
   void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
                   const Colour& tint, const Colour& ring, float opacity) const;
   void draw_arrows(const Camera& camera, const Sampling& sampling) const;

@@ -95,8 +95,8 @@ void main() {
   float gloss = pow(max(dot(n, normalize(key + v)), 0.0), 26.0);
   if (has_field) {
     float t = (value - value_range.x) / max(value_range.y - value_range.x, 1e-30);
-    float light = mix(0.50, 1.10, smoothstep(0.05, 0.95, lit)) * mix(0.55, 1.0, openness);
-    colour = vec4(field_colour(t) * light + (0.08 * gloss + 0.05 * rim) * open, 1.0);
+    float light = mix(0.66, 1.14, smoothstep(0.05, 0.95, lit)) * mix(0.62, 1.0, openness);
+    colour = vec4(field_colour(t) * light + (0.09 * gloss + 0.14 * rim + 0.035 * lit) * open, 1.0);
     return;
   }
   float t = lit * mix(0.42, 1.0, openness) + 0.07 * max(dot(n, fill), 0.0) * open;
