@@ -22,15 +22,15 @@ class Session;
 enum class ArgumentType { number, integer, word, text, expression };
 
 struct Parameter {
-  std::string name;
+  std::string name{};
   ArgumentType type = ArgumentType::number;
-  std::string help;
-  std::string unit;                  // "m", "N", …; empty for a pure number
+  std::string help{};
+  std::string unit{};                  // "m", "N", …; empty for a pure number
   int count = 1;                     // values that follow the name (a vector has 3)
   bool positional = false;           // stands without its name, before the named ones
   bool required = false;
   double low = -1e300, high = 1e300; // allowed range of numbers
-  std::vector<std::string> choices;  // allowed words; empty: any
+  std::vector<std::string> choices{};  // allowed words; empty: any
   bool flag = false;                 // a name alone
 };
 
@@ -68,12 +68,12 @@ enum class Effect {
 };
 
 struct Command {
-  std::string name;
-  std::string summary;
-  std::vector<Parameter> parameters;
-  std::string example;
+  std::string name{};
+  std::string summary{};
+  std::vector<Parameter> parameters{};
+  std::string example{};
   Effect effect = Effect::state;
-  std::function<void(Session&, const Arguments&)> run;
+  std::function<void(Session&, const Arguments&)> run{};
 };
 
 /// All commands, by name ascending.

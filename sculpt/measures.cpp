@@ -50,6 +50,9 @@ Eigen::Vector3d total_reaction(const Document& document, const Expression* where
   const Eigen::Matrix3Xd all = fem::reactions(document.system(), document.loads(), document.positions());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const std::uint32_t v : matching(document, ElementType::vertices, where)) sum += all.col(v);
+  if (where) return sum;  // springs hold nodes, not control vertices
+  for (const SoftPin& pin : document.state().pins->nodes)
+    sum += pin.stiffness * (pin.target - document.surface_nodes(document.positions()).col(pin.node));
   return sum;
 }
 

@@ -11,7 +11,7 @@
 namespace argil::sculpt {
 
 struct MeasureInfo {
-  std::string name, unit, help;
+  std::string name{}, unit{}, help{};
   bool at_point = false;   // wants `at X Y Z`, a material point by its rest position
   bool over_nodes = false; // may be narrowed by `where` on nodes
 };
@@ -19,8 +19,8 @@ struct MeasureInfo {
 [[nodiscard]] const std::vector<MeasureInfo>& measure_table();
 
 struct MeasureQuery {
-  std::string name;
-  std::optional<Eigen::Vector3d> at;
+  std::string name{};
+  std::optional<Eigen::Vector3d> at = std::nullopt;
   const Expression* where = nullptr;
 };
 /// @throws Error (not_found) for another name; (bad_input) for a missing or superfluous point or condition.
