@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -76,7 +75,8 @@ PointStencil stencil_of_nodes(const subdiv::Stencils& rows, std::span<const std:
   PointStencil result;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto row = rows.row(nodes[n]);
-    for (std::size_t e = 0; e < row.columns.size(); ++e) weights[row.columns[e]] += node_weights[n] * row.weights[e];
+    for (std::size_t e = 0; e < row.columns.size(); ++e)
+      weights[row.columns[e]] += node_weights[n] * row.weights[e];
     result.control_points.insert(result.control_points.end(), row.columns.begin(), row.columns.end());
   }
   std::sort(result.control_points.begin(), result.control_points.end());
@@ -117,7 +117,13 @@ SurfacePatch surface_patch(const Discretization& discretization, const subdiv::S
       throw Error(ErrorCode::bad_input, "Surface loads act on boundary faces; this face is not one of them.",
                   fmt::format("face {}", f.value));
     const auto loop = subdiv::use_vertices(finest, finest.boundary_use(f));
-    assert(loop.size() == 4);
+    if (loop.size() != 4)
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("Surface loads are spread over quadrilaterals, and this face has {} corners. Refine at "
+                      "least once: levels 1.",
+                      loop.size()),
+          fmt::format("face {}", f.value));
     std::array<std::uint32_t, 4>& quad = result.quads.emplace_back();
     for (std::size_t c = 0; c < 4; ++c) quad[c] = discretization.surface_node_from_vertex[loop[c].index()];
   }

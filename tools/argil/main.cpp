@@ -1,10 +1,16 @@
 // The command line of Argil: parses, calls a subcommand, and turns errors into messages and exit statuses.
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
+#include "sculpt/near_names.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
 
@@ -12,35 +18,63 @@ namespace {
 
 using namespace argil::tools;
 
+// What CLI11 says, with the place where help is; it does not name a subcommand that there is not.
+std::string usage_message(const CLI::App& app, const CLI::Error& error, const std::string& first_word) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(subcommand->get_name());
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty() && !first_word.empty() && first_word[0] != '-')
+    return fmt::format("argil: '{}' is not a subcommand{}; `argil --help` lists them\n", first_word,
+                       argil::sculpt::near_names_hint(first_word, names));
+  const std::string name = chosen.empty() ? "argil" : "argil " + chosen.front()->get_name();
+  return fmt::format("{}: {}; `{} --help` explains\n", name, error.what(), name);
+}
+
+// A failed assertion ends with the exit status of our own bugs. Only what is safe in a signal handler is called.
+void report_abort(int) {
+  static const char message[] =
+      "argil: this is a bug of ours; a replay's journal.argil, in its --out folder, holds all commands before this "
+      "one\n";
+  (void)!write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(k_own_bug);
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
+  CLI::App app{
+      "Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
   app.name("argil");
   app.set_version_flag("--version", "argil " ARGIL_VERSION);
   app.require_subcommand(1);
-  app.footer("`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
-             "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
+  app.footer(
+      "`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
+      "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
   int status = k_well;
 
   ReplayArguments replaying;
-  CLI::App* replay_app = app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
+  CLI::App* replay_app =
+      app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
   replay_app->add_option("session", replaying.session, "the session file")->required();
   replay_app->add_option("--out", replaying.out, "folder for results (default: out/<session name>)");
   replay_app->add_option("--threads", replaying.threads, "threads; the results are the same bits for any number")
       ->check(CLI::Range(1, 1024));
-  replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")->check(CLI::NonNegativeNumber);
+  replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")
+      ->check(CLI::PositiveNumber);
   replay_app->add_option("--hash-trace", replaying.hash_trace, "write one state hash a step, for `argil diff`");
   replay_app->add_option("--set", replaying.overrides,
                          "stand in for a command of the session: --set space=cubic, --set levels=1");
   replay_app->add_option("--max-cells", replaying.limits.cells, "refuse to make more cells")->capture_default_str();
   replay_app->add_option("--max-steps", replaying.limits.steps, "refuse to take more steps")->capture_default_str();
-  replay_app->add_option("--max-memory", replaying.limits.memory, "bytes, estimated before allocating")->capture_default_str();
+  replay_app->add_option("--max-memory", replaying.limits.memory, "bytes, estimated before allocating")
+      ->capture_default_str();
   replay_app->add_flag("--json", replaying.json, "print the summary to standard output");
   replay_app->add_flag("--quiet", replaying.quiet, "no progress, no messages");
   replay_app->add_flag("!--no-pictures", replaying.pictures, "skip `render`");
-  replay_app->footer("summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
-                     "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
-                     "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
-                     "threads, measures, expectations.");
+  replay_app->footer(
+      "summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
+      "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
+      "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
+      "threads, measures, expectations.");
   replay_app->callback([&] { status = replay(replaying); });
 
   std::filesystem::path first, second;
@@ -49,7 +83,8 @@ int run(int argc, char** argv) {
   std::string space = "default", command;
   std::size_t max_cells = argil::sculpt::Limits{}.cells;
 
-  CLI::App* diff_app = app.add_subcommand("diff", "Names the first command and step at which two hash traces differ");
+  CLI::App* diff_app =
+      app.add_subcommand("diff", "Names the first command and step at which two hash traces differ");
   diff_app->add_option("trace_a", first)->required();
   diff_app->add_option("trace_b", second)->required();
   diff_app->add_flag("--json", json, "print the answer as JSON");
@@ -72,7 +107,8 @@ int run(int argc, char** argv) {
   elements_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
   elements_app->add_option("--levels", levels, "refinements")->required()->check(CLI::Range(0, 8));
   elements_app->add_option("--space", space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
-  elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")->check(CLI::Range(0, 3));
+  elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")
+      ->check(CLI::Range(0, 3));
   elements_app->add_flag("--json", json, "print as JSON");
   elements_app->add_option("--max-cells", max_cells, "refuse to make more cells")->capture_default_str();
   elements_app->callback([&] { status = elements(first, levels, space, split, json, max_cells); });
@@ -95,6 +131,9 @@ int run(int argc, char** argv) {
   help_app->add_option("command", command, "a command of a session");
   help_app->callback([&] { status = help(command); });
 
+  const std::string first_word = argc > 1 ? argv[1] : "";
+  app.failure_message(
+      [&](const CLI::App*, const CLI::Error& error) { return usage_message(app, error, first_word); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -106,13 +145,18 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGABRT, report_abort);
   try {
     return run(argc, argv);
   } catch (const argil::Error& error) {
     std::fprintf(stderr, "argil: %s%s%s\n", error.where().c_str(), error.where().empty() ? "" : ": ", error.what());
     return k_bad_input;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
+    std::fprintf(stderr,
+                 "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
+    return k_bad_input;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "argil: %s; choose files and folders that exist and are yours\n", error.what());
     return k_bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "argil: this is a bug of ours: %s\n", error.what());

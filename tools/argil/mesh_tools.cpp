@@ -44,7 +44,16 @@ void check_count(const Solid& solid, int levels, std::size_t max_cells) {
   const std::size_t count = refined_cell_count(solid, levels);
   if (count > max_cells)
     throw Error(ErrorCode::limit_exceeded,
-                fmt::format("level {} has {} cells, more than {}; lower --levels or raise --max-cells", levels, count, max_cells));
+                fmt::format("level {} has {} cells, more than {}; lower --levels or raise --max-cells", levels,
+                            count, max_cells));
+}
+
+// Asked before the work is done, not after it.
+void check_ending(const std::filesystem::path& out) {
+  if (!sculpt::is_surface_format(out) && !io::is_volume_format(out))
+    throw Error(ErrorCode::unsupported, fmt::format("expected a name that ends in .mesh, .vtk or .vtu, or in .obj, "
+                                                    ".ply or .stl for the boundary, found '{}'",
+                                                    out.string()));
 }
 
 void print_text(const ordered_json& json, int indent = 0) {
@@ -53,7 +62,8 @@ void print_text(const ordered_json& json, int indent = 0) {
       fmt::print("{:{}}{}\n", "", indent, key);
       print_text(value, indent + 2);
     } else {
-      fmt::print("{:{}}{:<{}} {}\n", "", indent, key, 24 - indent, value.is_string() ? value.get<std::string>() : value.dump());
+      fmt::print("{:{}}{:<{}} {}\n", "", indent, key, 24 - indent,
+                 value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
 }
@@ -93,15 +103,20 @@ int info(const std::filesystem::path& path, bool as_json) {
   json["inertia"] = ordered_json::array();
   for (Eigen::Index row = 0; row < 3; ++row)
     json["inertia"].push_back({mass.inertia(row, 0), mass.inertia(row, 1), mass.inertia(row, 2)});
-  if (as_json) fmt::print("{}\n", json.dump(2));
-  else print_text(json);
+  if (as_json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    print_text(json);
   if (worst.value < 0.1)
-    std::fprintf(stderr, "argil: cell %u is badly shaped (relative Jacobian %.3g at a quadrature point, below 0.1)\n",
+    std::fprintf(stderr,
+                 "argil: cell %u is badly shaped (relative Jacobian %.3g at a quadrature point, below 0.1)\n",
                  worst.cell.value, worst.value);
   return k_well;
 }
 
-int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit, std::size_t max_cells) {
+int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit,
+           std::size_t max_cells) {
+  check_ending(out);
   Built built = read_solid(in);
   check_count(built.solid, levels, max_cells);
   for (int level = 0; level < levels; ++level) {
@@ -143,12 +158,15 @@ int elements(const std::filesystem::path& path, int levels, const std::string& s
   json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
   json["unknowns"] = 3 * built.solid.vertex_count();
   json["volume"] = d.rest_volume;
-  if (as_json) fmt::print("{}\n", json.dump(2));
-  else print_text(json);
+  if (as_json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    print_text(json);
   return k_well;
 }
 
 int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
+  check_ending(out);
   io::VolumeMesh mesh = io::read_volume_mesh(in);
   if (sculpt::is_surface_format(out)) {
     const Built built = read_solid(in);
@@ -168,22 +186,30 @@ int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
 
 int render(const RenderArguments& arguments) {
   const auto renderer = view::make_offscreen_renderer();
+  // Links that the user names are followed; those in a session's folder are not.
+  std::error_code failure;
+  const std::filesystem::path mesh = std::filesystem::canonical(arguments.mesh, failure);
+  if (failure)
+    throw Error(ErrorCode::not_found, "there is no such file; check the name and the folder",
+                arguments.mesh.string());
   sculpt::SessionOptions options;
-  options.read_root = arguments.mesh.parent_path();
+  options.read_root = mesh.parent_path();
   options.out = arguments.out.parent_path().empty() ? "." : arguments.out.parent_path();
   options.write_journal = false;
   options.renderer = renderer.get();
   options.print = [](const std::string& message) { std::fprintf(stderr, "argil: %s\n", message.c_str()); };
   sculpt::Session session(options);
-  session.run_line("open " + io::quote(arguments.mesh.filename().string()));
+  session.run_line("open " + io::quote(mesh.filename().string()));
   if (arguments.levels > 0) session.run_line(fmt::format("levels {}", arguments.levels));
-  session.run_line("render " + io::quote(arguments.out.filename().string()) + " " + arguments.options);
+  const std::string line = "render " + io::quote(arguments.out.filename().string()) + " " + arguments.options;
+  session.run_line(io::parse_session_line(line, arguments.out.string(), 1));
   return k_well;
 }
 
 int help(const std::string& command) {
   if (command.empty()) {
-    fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}", sculpt::command_overview());
+    fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}",
+               sculpt::command_overview());
     return k_well;
   }
   const auto line = io::parse_session_line(command, "command", 1);
