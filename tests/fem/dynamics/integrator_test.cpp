@@ -38,8 +38,7 @@ double oscillator_error(Method method, int steps) {
   body.state.positions(0, 1) = 1.1;
   Integrator integrator(body.system);
   const double duration = 1.25 * std::numbers::pi + 0.4;
-  for (int i = 0; i < steps; ++i)
-    integrator.step({}, body.state, duration / steps, tight(method));
+  for (int i = 0; i < steps; ++i) integrator.step({}, body.state, duration / steps, tight(method));
   return std::abs(body.state.positions(0, 1) - (1 + 0.1 * std::cos(2 * duration)));
 }
 
@@ -101,8 +100,8 @@ TEST(Integrator, LinearMomentumIsKept) {
   SimulatedSolid solid(test::box(3, 2, 2, {0.3, 0.2, 0.2}), 1, {1e4, 0.3, 100, 0});
   for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
     solid.state.velocities.col(i) =
-        Eigen::Vector3d(0.3, -0.2, 0.5) + 2.0 * Eigen::Vector3d(std::sin(7.0 * static_cast<double>(i)), 0,
-                                                                  std::cos(3.0 * static_cast<double>(i)));
+        Eigen::Vector3d(0.3, -0.2, 0.5) +
+        2.0 * Eigen::Vector3d(std::sin(7.0 * static_cast<double>(i)), 0, std::cos(3.0 * static_cast<double>(i)));
   const Eigen::Vector3d start = momentum(solid.system, solid.state).linear;
   Integrator integrator(solid.system);
   for (int i = 0; i < 20; ++i) integrator.step({}, solid.state, 1.0 / 60, tight());
