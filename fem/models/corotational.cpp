@@ -32,7 +32,7 @@ class Corotational final : public ForceModel {
   }
 
   std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd& x, Projection projection) const override {
-    auto result = std::make_unique<PacketTangent>(packets_);
+    auto result = std::make_unique<PacketTangent>(packets_, memory_);
     packets_->for_packets([&](std::size_t block, std::size_t begin, std::size_t end) {
       PacketArguments arguments = packets_->arguments(block, nullptr, result->entries(), nullptr);
       arguments.x = x.data();
@@ -44,6 +44,7 @@ class Corotational final : public ForceModel {
 
  private:
   std::shared_ptr<const ElementPackets> packets_;
+  std::shared_ptr<PacketMemory> memory_ = std::make_shared<PacketMemory>();
   mutable std::vector<FourDoubles> slots_, energies_;  // working memory: one call at a time
 };
 

@@ -1,12 +1,26 @@
 #include "fem/models/corotational_kernels.h"
 
-#include "fem/models/lane_svd.h"
-#include "fem/models/packet_shapes.h"
+#include "fem/models/lane_polar.h"
+#include "fem/models/shapes/dense_shape.h"
+#include "fem/models/shapes/tricubic_shape.h"
+#include "fem/models/shapes/trilinear_shape.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace argil::fem {
 namespace {
+
+// Long and, but for tangents, rarely needed: out of line, once for each set of instructions.
+struct Baseline {
+  static __attribute__((noinline)) void svd(const LaneMatrix& f, LaneSvd& result) { signed_svd(f, result); }
+};
+#if defined(__x86_64__)
+struct Avx2 {
+  static __attribute__((noinline, target("avx2"))) void svd(const LaneMatrix& f, LaneSvd& result) {
+    signed_svd(f, result);
+  }
+};
+#endif
 
 struct PointMaterial {
   Lanes mu, lambda;
@@ -48,8 +62,14 @@ ARGIL_LANES_INLINE Lanes sum(const LaneVector& a) {
   return a.m[0] + a.m[1] + a.m[2];
 }
 
+ARGIL_LANES_INLINE Lanes inner(const LaneMatrix& a, const LaneMatrix& b) {
+  Lanes result = a.m[0] * b.m[0];
+  for (int i = 1; i < 9; ++i) result += a.m[i] * b.m[i];
+  return result;
+}
+
 struct Energy {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -59,12 +79,12 @@ struct Energy {
       Lanes total = broadcast(0);
       at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
         const PointMaterial m = material(a, packet, p, points);
-        LaneSvd svd;
-        signed_svd(f, svd);
-        const Lanes* s = svd.sigma.m;
-        const LaneVector stretch = {{s[0] - 1.0, s[1] - 1.0, s[2] - 1.0}};
-        const Lanes trace = sum(stretch);
-        total += load(a.volumes + index) * (m.mu * dot(stretch, stretch) + 0.5 * m.lambda * (trace * trace));
+        LaneMatrix rotation;
+        nearest_rotation(f, rotation, Isa::svd);
+        const Lanes trace = inner(rotation, f) - 3.0;
+        Lanes square = broadcast(0);
+        for (int i = 0; i < 9; ++i) square += (f.m[i] - rotation.m[i]) * (f.m[i] - rotation.m[i]);
+        total += load(a.volumes + index) * (m.mu * square + 0.5 * m.lambda * (trace * trace));
       });
       store(a.energies + packet, total);
     }
@@ -72,7 +92,7 @@ struct Energy {
 };
 
 struct Forces {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind), stresses(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -83,12 +103,11 @@ struct Forces {
       at_points(a, packet, shape,
                 [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& f) {
                   const PointMaterial m = material(a, packet, p, points);
-                  LaneSvd svd;
-                  signed_svd(f, svd);
-                  const LaneMatrix rotation = outer_sum(svd.u, svd.v);
+                  LaneMatrix rotation;
+                  nearest_rotation(f, rotation, Isa::svd);
                   const Lanes volume = load(a.volumes + index);
                   const Lanes shear = -2.0 * m.mu * volume;
-                  const Lanes pressure = -m.lambda * volume * (sum(svd.sigma) - 3.0);
+                  const Lanes pressure = -m.lambda * volume * (inner(rotation, f) - 3.0);
                   LaneMatrix stress;
                   for (int i = 0; i < 9; ++i)
                     stress.m[i] = shear * (f.m[i] - rotation.m[i]) + pressure * rotation.m[i];
@@ -101,7 +120,7 @@ struct Forces {
 };
 
 struct TangentAtState {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind);
     const std::size_t points = static_cast<std::size_t>(shape.point_count());
@@ -111,7 +130,7 @@ struct TangentAtState {
       at_points(a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix&, const LaneMatrix& f) {
         const PointMaterial m = material(a, packet, p, points);
         LaneSvd svd;
-        signed_svd(f, svd);
+        Isa::svd(f, svd);
         const LaneMatrix rotation = outer_sum(svd.u, svd.v);
         const Lanes volume = load(a.volumes + index);
         const Lanes k = m.lambda * (sum(svd.sigma) - 3.0) - 2.0 * m.mu;
@@ -137,7 +156,7 @@ struct TangentAtState {
 };
 
 struct Product {
-  template <class Shape>
+  template <class Shape, class Isa>
   static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
     Shape shape(*a.kind), stresses(*a.kind);
     for (std::size_t packet = begin; packet < end; ++packet) {
@@ -169,13 +188,13 @@ struct Product {
 
 template <class Operation, class Shape>
 __attribute__((flatten)) void run_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
-  Operation::template run<Shape>(a, begin, end);
+  Operation::template run<Shape, Baseline>(a, begin, end);
 }
 #if defined(__x86_64__)
 template <class Operation, class Shape>
 __attribute__((target("avx2"), flatten)) void run_avx2(const PacketArguments& a, std::size_t begin,
                                                        std::size_t end) {
-  Operation::template run<Shape>(a, begin, end);
+  Operation::template run<Shape, Avx2>(a, begin, end);
 }
 #endif
 

@@ -36,7 +36,7 @@ class Linear final : public ForceModel {
   }
 
   std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd&, Projection) const override {
-    auto result = std::make_unique<PacketTangent>(packets_);
+    auto result = std::make_unique<PacketTangent>(packets_, memory_);
     packets_->for_packets([&](std::size_t block, std::size_t begin, std::size_t end) {
       linear_tangent(packets_->arguments(block, nullptr, result->entries(), nullptr), begin, end);
     });
@@ -45,6 +45,7 @@ class Linear final : public ForceModel {
 
  private:
   std::shared_ptr<const ElementPackets> packets_;
+  std::shared_ptr<PacketMemory> memory_ = std::make_shared<PacketMemory>();
   Eigen::Matrix3Xd rest_nodes_;
 };
 

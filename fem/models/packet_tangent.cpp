@@ -6,11 +6,18 @@
 
 namespace argil::fem {
 
-PacketTangent::PacketTangent(std::shared_ptr<const ElementPackets> packets)
-    : packets_(std::move(packets)), entries_(packets_->point_packet_count() * k_tangent_entries) {}
+PacketTangent::PacketTangent(std::shared_ptr<const ElementPackets> packets, std::shared_ptr<PacketMemory> memory)
+    : packets_(std::move(packets)),
+      memory_(std::move(memory)),
+      entries_(memory_->take(packets_->point_packet_count() * k_tangent_entries)),
+      slots_(memory_->take(packets_->slot_count())) {}
+
+PacketTangent::~PacketTangent() {
+  memory_->give_back(std::move(entries_));
+  memory_->give_back(std::move(slots_));
+}
 
 void PacketTangent::stiffness_product(const Eigen::Matrix3Xd& dx, Eigen::Matrix3Xd& result) const {
-  slots_.resize(packets_->slot_count());
   packets_->for_packets([&](std::size_t block, std::size_t begin, std::size_t end) {
     PacketArguments arguments = packets_->arguments(block, slots_.data(), entries_.data(), nullptr);
     arguments.x = dx.data();

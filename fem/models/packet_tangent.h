@@ -7,13 +7,15 @@
 
 #include "fem/models/element_packets.h"
 #include "fem/models/force_model.h"
+#include "fem/models/packet_memory.h"
 
 namespace argil::fem {
 
 /// Its results are written through working memory of its own: one call at a time.
 class PacketTangent final : public Tangent {
  public:
-  explicit PacketTangent(std::shared_ptr<const ElementPackets> packets);
+  PacketTangent(std::shared_ptr<const ElementPackets> packets, std::shared_ptr<PacketMemory> memory);
+  ~PacketTangent() override;
 
   /// For the model that fills it: per-point entries over all blocks.
   FourDoubles* entries() { return entries_.data(); }
@@ -23,6 +25,7 @@ class PacketTangent final : public Tangent {
 
  private:
   std::shared_ptr<const ElementPackets> packets_;
+  std::shared_ptr<PacketMemory> memory_;
   mutable std::vector<FourDoubles> entries_, slots_;
 };
 

@@ -194,7 +194,11 @@ TEST(ForceModels, PatchTestIsExactInsideOfMixedMeshes) {
   Eigen::Matrix3d affine;
   affine << 1.1, 0.05, -0.02, 0.03, 0.95, 0.1, -0.04, 0.02, 1.05;
   std::vector<Body> bodies = {test::hexahedra(4, 0.2), test::pyramids(2, 0.15), test::mixed(4, 0.15),
-                              test::irregular_cell(0.05), test::bspline(4, 0.1)};
+                              test::irregular_cell(0.05), test::bspline(4, 0)};
+  // Unequal layers, sheared: Jacobians that differ from point to point.
+  Eigen::Matrix3d shear;
+  shear << 1, 0.3, 0, 0.1, 1.2, -0.2, 0, 0.4, 0.9;
+  bodies.back().rest = shear * bodies.back().rest;
   for (Body& body : bodies) {
     test::finish(body, 0.3, true);
     ASSERT_FALSE(body.interior.empty()) << body.name;
@@ -208,6 +212,20 @@ TEST(ForceModels, PatchTestIsExactInsideOfMixedMeshes) {
       EXPECT_LE(residual, 1e-13 * stress) << body.name << linear;
     }
   }
+}
+
+TEST(ForceModels, PatchTestOfARandomTricubicNetIsLimitedByQuadrature) {
+  // ∇N det J has degree 8 in each coordinate, one more than 4 Gauss points integrate: small, but not rounding.
+  Body body = test::bspline(4, 0.1);
+  test::finish(body, 0.3, true);
+  Eigen::Matrix3d affine = 1.1 * Eigen::Matrix3d::Identity();
+  affine(0, 1) = 0.1;
+  const Eigen::Matrix3Xd f = forces_at(*make_corotational(body.blocks, body.rest), affine * body.rest);
+  double residual = 0;
+  for (const auto node : body.interior) residual = std::max(residual, f.col(node).cwiseAbs().maxCoeff());
+  const double stress = 250, h = 0.25;
+  EXPECT_LE(residual, 1e-7 * stress * h * h);
+  EXPECT_GE(residual, 1e-12 * stress * h * h);
 }
 
 TEST(ForceModels, UniaxialStretchHasTheClosedForm) {

@@ -1,0 +1,32 @@
+#pragma once
+// Nodes of four elements at once, in and out of a shape. A shape (trilinear_shape.h, tricubic_shape.h,
+// dense_shape.h) takes nodes x to the gradients ∂x/∂(u,v,w) at its quadrature points (gather, differentiate,
+// gradient) and, the transposed way, ∂Ψ/∂(∂x/∂(u,v,w)) at the points to nodal forces (clear, add, integrate,
+// scatter).
+
+#include <cstdint>
+
+#include "fem/models/lanes.h"
+
+namespace argil::fem {
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/// The vectors of four elements, relative to each element's first node so that far from the origin nothing is lost.
+/// `nodes` holds 3 × the node index, [node * 4 + lane].
+ARGIL_LANES_INLINE void gather_node(const double* x, const std::uint32_t* nodes, int node, LaneVector& to) {
+  const std::uint32_t* n = nodes + k_lanes * node;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    to.m[axis] = Lanes{x[n[0] + axis], x[n[1] + axis], x[n[2] + axis], x[n[3] + axis]};
+}
+ARGIL_LANES_INLINE LaneVector minus(const LaneVector& a, const LaneVector& b) {
+  return {{a.m[0] - b.m[0], a.m[1] - b.m[1], a.m[2] - b.m[2]}};
+}
+ARGIL_LANES_INLINE void store_node(FourDoubles* slots, int node, const LaneVector& force) {
+  for (int axis = 0; axis < 3; ++axis) store(slots + 3 * node + axis, force.m[axis]);
+}
+
+#pragma GCC diagnostic pop
+
+}  // namespace argil::fem
