@@ -18,6 +18,8 @@ struct SceneSurface {
   std::vector<std::size_t> offsets{0};     // faces
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> cell_from_face;              // id for the id buffer
+  std::vector<std::uint8_t> cut_faces;                    // 1 a face that a cut laid open; empty: none
+  std::vector<std::uint32_t> vertex_from_surface;         // the solid's vertex; may be empty
   std::vector<float> values;                              // field per surface vertex; empty: clay
   std::vector<std::array<std::uint32_t, 2>> sharp_edges;  // creases: normals are split there
   std::vector<std::array<std::uint32_t, 2>> wire;         // cell edges drawn as thin lines
@@ -30,6 +32,8 @@ struct SceneLabel {
   Eigen::Vector3f at;
   std::string text;
 };
+/// low and high are in the unit of the values. Numbers are written with their unit: 12e3 "Pa" as 12 kPa; with the
+/// unit "%" fractions are written as per cent (0.12: 12 %).
 struct SceneLegend {
   std::string title, unit;
   double low = 0, high = 1;
@@ -47,13 +51,13 @@ struct Scene {
 };
 
 struct PictureOptions {
-  int width = 1280, height = 800;
+  int width = 1280, height = 800;              // 1 … 4096
   Eigen::Vector3d view_from{1.0, -1.6, 0.9};  // direction from the model's middle to the eye; z is up
   double zoom = 1;                            // 1 frames the whole scene
   bool wireframe = true;
   bool contact_shadow = true;
   bool light_theme = false;
-  int samples = 4;  // supersampling per axis pair; 1 = none
+  int samples = 4;  // a pixel, on a square grid: 1, 4, 9 or 16
 };
 
 struct Picture {
@@ -65,7 +69,9 @@ struct Picture {
 class Renderer {
  public:
   virtual ~Renderer() = default;
-  /// @throws Error (unsupported) where no OpenGL 3.3 context can be had.
+  /// Deterministic on one machine. One thread at a time.
+  /// @throws Error (unsupported) where no OpenGL 3.3 context can be had; (bad_input) for a size, zoom or number of
+  /// samples out of range; (bad_geometry) for a coordinate or value that is not finite.
   [[nodiscard]] virtual Picture render(const Scene& scene, const PictureOptions& options) = 0;
 };
 

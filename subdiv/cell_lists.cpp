@@ -112,7 +112,7 @@ std::vector<VertexId> vtk_vertices(const Solid& solid, CellId cell) {
   }
   const auto side = loop_along(solid, cell, base[1], base[0]);
   const auto other = loop_along(solid, cell, base[2], base[1]);
-  return {base[0], base[1], base[2], side[2], side[3], other[2]};
+  return {base[0], base[1], base[2], side[2], side[3], other[3]};
 }
 
 CellLists cell_lists(const Solid& solid, const Eigen::Matrix3Xd& positions) {

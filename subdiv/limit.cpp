@@ -152,9 +152,10 @@ std::vector<double> left_eigenvector(const Eigen::MatrixXd& refinement) {
   return {solution.begin(), solution.end()};
 }
 
-bool is_regular(const Solid& solid, const Star& star) {
-  return star.edges.size() == 6 &&
-         std::all_of(star.edges.begin(), star.edges.end(), [&](EdgeId e) { return solid.edge_valence(e) == 4; });
+bool is_regular(const Solid& solid, VertexId v) {
+  bool four = true;
+  solid.for_each_edge(v, [&](EdgeId e) { four = four && solid.edge_valence(e) == 4; });
+  return four && solid.vertex_valence(v) == 6;
 }
 
 // The weights of the star of a vertex: for edges, faces and cells that all count alike four numbers, otherwise one
@@ -189,47 +190,56 @@ class WeightTable {
   std::map<std::vector<std::size_t>, std::vector<double>> table_;
 };
 
-std::size_t only_sharp_edge(const Solid& solid, const Star& star) {
-  return static_cast<std::size_t>(
-      std::find_if(star.edges.begin(), star.edges.end(), [&](EdgeId e) { return is_sharp(solid, e); }) -
-      star.edges.begin());
+Weights weights_of(const Solid& solid, const PointRules& rules, VertexId v, WeightTable& table) {
+  const Incidence& incidence = rules.incidence();
+  if (!incidence.is_boundary(v)) {
+    if (is_regular(solid, v)) return {64.0 / 216, 16.0 / 216, 4.0 / 216, 1.0 / 216, nullptr};
+    return {0, 0, 0, 0, &table.interior(make_star(solid, incidence, v))};
+  }
+  if (rules.rule(v) == BoundaryVertexRule::corner) return {1, 0, 0, 0, nullptr};
+  if (rules.rule(v) == BoundaryVertexRule::crease) return {4.0 / 6, 1.0 / 6, 0, 0, nullptr};
+  double k = 0;
+  EdgeId sharp;
+  solid.for_each_edge(v, [&](EdgeId e) {
+    if (!incidence.is_boundary(e)) return;
+    k += 1;
+    if (is_sharp(solid, e)) sharp = e;
+  });
+  if (!sharp.valid()) return {k / (k + 5), 4 / (k * (k + 5)), 1 / (k * (k + 5)), 0, nullptr};
+  const Star star = make_star(solid, incidence, v);
+  return {0, 0, 0, 0, &table.dart(star, place(star.edges, sharp))};
 }
 
-Weights weights_of(const Solid& solid, const PointRules& rules, VertexId v, WeightTable& table) {
-  const Star star = make_star(solid, rules.incidence(), v);
-  if (!rules.incidence().is_boundary(v)) {
-    if (is_regular(solid, star)) return {64.0 / 216, 16.0 / 216, 4.0 / 216, 1.0 / 216, nullptr};
-    return {0, 0, 0, 0, &table.interior(star)};
-  }
-  switch (rules.rule(v)) {
-    case BoundaryVertexRule::corner:
-      return {1, 0, 0, 0, nullptr};
-    case BoundaryVertexRule::crease:  // edge counts for the two sharp ones
-      return {4.0 / 6, 1.0 / 6, 0, 0, nullptr};
-    case BoundaryVertexRule::smooth:
-      break;
-  }
-  const std::size_t sharp_edge = only_sharp_edge(solid, star);
-  if (sharp_edge < star.edges.size()) return {0, 0, 0, 0, &table.dart(star, sharp_edge)};
-  const auto k = static_cast<double>(star.edges.size());
-  return {k / (k + 5), 4 / (k * (k + 5)), 1 / (k * (k + 5)), 0, nullptr};
+// All edges alike (of a crease its two sharp ones), all faces and all cells.
+void add_alike(const Solid& solid, const PointRules& rules, VertexId v, const Weights& weights, RowBuilder& row) {
+  const Incidence& incidence = rules.incidence();
+  const bool boundary = incidence.is_boundary(v);
+  const bool crease = boundary && rules.rule(v) == BoundaryVertexRule::crease;
+  rules.add_vertex_point(v, weights.vertex, row);
+  if (weights.edge != 0)
+    solid.for_each_edge(v, [&](EdgeId e) {
+      if (boundary && !incidence.is_boundary(e)) return;
+      if (!crease || is_sharp(solid, e)) rules.add_edge_point(e, weights.edge, row);
+      if (weights.face == 0) return;
+      solid.for_each_face(e, [&](FaceId f) {  // every face has two edges at v
+        if (!boundary || solid.is_boundary(f)) rules.add_face_point(f, weights.face / 2, row);
+      });
+    });
+  if (weights.cell == 0) return;
+  for (const CellId c : incidence.cells(v)) rules.add_cell_point(c, weights.cell, row);
 }
 
 void add_limit(const Solid& solid, const PointRules& rules, VertexId v, const Weights& weights, RowBuilder& row) {
-  const bool crease = rules.incidence().is_boundary(v) && rules.rule(v) == BoundaryVertexRule::crease;
-  if (!weights.each && weights.edge == 0) {
-    rules.add_vertex_point(v, weights.vertex, row);
+  if (!weights.each) {
+    add_alike(solid, rules, v, weights, row);
     return;
   }
   const Star star = make_star(solid, rules.incidence(), v);
-  std::size_t at = 0;
-  const auto next = [&](double common) { return weights.each ? (*weights.each)[at++] : common; };
-  rules.add_vertex_point(v, next(weights.vertex), row);
-  for (const EdgeId e : star.edges)
-    if (!crease || is_sharp(solid, e)) rules.add_edge_point(e, next(weights.edge), row);
-  if (crease) return;
-  for (const FaceId f : star.faces) rules.add_face_point(f, next(weights.face), row);
-  for (const CellId c : star.cells) rules.add_cell_point(c, next(weights.cell), row);
+  const double* weight = weights.each->data();
+  rules.add_vertex_point(v, *weight++, row);
+  for (const EdgeId e : star.edges) rules.add_edge_point(e, *weight++, row);
+  for (const FaceId f : star.faces) rules.add_face_point(f, *weight++, row);
+  for (const CellId c : star.cells) rules.add_cell_point(c, *weight++, row);
 }
 
 }  // namespace

@@ -65,10 +65,11 @@ CellId Transaction::add_cell(std::span<const FaceUseId> uses) {
   const auto fail = [](const std::string& message) { throw Error(ErrorCode::bad_topology, message); };
   CellLoops loops;
   for (const FaceUseId use : uses) {
-    if (!solid_->is_live(face_of(use))) fail(fmt::format("a cell names face {}, which is removed", use.index() / 2));
+    if (!solid_->is_live(face_of(use)))
+      fail(fmt::format("a cell names face {}, which is removed", use.index() / 2));
     if (const CellId c = solid_->owner(use); c.valid())
-      fail(fmt::format("a new cell would lie in cell {}: that side of face {} is taken; choose a boundary face", c.value,
-                       face_of(use).value));
+      fail(fmt::format("a new cell would lie in cell {}: that side of face {} is taken; choose a boundary face",
+                       c.value, face_of(use).value));
     for (const VertexId v : use_vertices(*solid_, use)) loops.corners.push_back(v.value);
     loops.end_face();
   }
@@ -196,12 +197,18 @@ void Transaction::undo_step(Solid& solid, const Delta::Step& step) {
     case Kind::add_cell:
       assert(step.id + 1 == solid.cell_capacity());
       return solid.pop_cell();
-    case Kind::remove_vertex: return solid.set_live(VertexId{step.id}, true);
-    case Kind::remove_edge: return solid.set_live(EdgeId{step.id}, true);
-    case Kind::remove_face: return solid.set_live(FaceId{step.id}, true);
-    case Kind::remove_cell: return solid.set_live(CellId{step.id}, true);
-    case Kind::edge_sharpness: return assign_sharpness(solid, EdgeId{step.id}, step.before);
-    case Kind::vertex_sharpness: return assign_sharpness(solid, VertexId{step.id}, step.before);
+    case Kind::remove_vertex:
+      return solid.set_live(VertexId{step.id}, true);
+    case Kind::remove_edge:
+      return solid.set_live(EdgeId{step.id}, true);
+    case Kind::remove_face:
+      return solid.set_live(FaceId{step.id}, true);
+    case Kind::remove_cell:
+      return solid.set_live(CellId{step.id}, true);
+    case Kind::edge_sharpness:
+      return assign_sharpness(solid, EdgeId{step.id}, step.before);
+    case Kind::vertex_sharpness:
+      return assign_sharpness(solid, VertexId{step.id}, step.before);
   }
 }
 
@@ -214,20 +221,38 @@ void Transaction::redo_step(Solid& solid, const Delta::Step& step, std::span<con
   };
   [[maybe_unused]] std::uint32_t given = step.id;
   switch (step.kind) {
-    case Kind::add_vertex: given = solid.push_vertex().value; break;
-    case Kind::add_edge: given = solid.push_edge(VertexId{payload[0]}, VertexId{payload[1]}).value; break;
+    case Kind::add_vertex:
+      given = solid.push_vertex().value;
+      break;
+    case Kind::add_edge:
+      given = solid.push_edge(VertexId{payload[0]}, VertexId{payload[1]}).value;
+      break;
     case Kind::add_face: {
       const std::size_t n = payload.size() / 2;
       given = solid.push_face(ids(VertexId{}, 0, n), ids(EdgeId{}, n, 2 * n)).value;
       break;
     }
-    case Kind::add_cell: given = solid.push_cell(ids(FaceUseId{}, 0, payload.size())).value; break;
-    case Kind::remove_vertex: solid.set_live(VertexId{step.id}, false); break;
-    case Kind::remove_edge: solid.set_live(EdgeId{step.id}, false); break;
-    case Kind::remove_face: solid.set_live(FaceId{step.id}, false); break;
-    case Kind::remove_cell: solid.set_live(CellId{step.id}, false); break;
-    case Kind::edge_sharpness: assign_sharpness(solid, EdgeId{step.id}, step.after); break;
-    case Kind::vertex_sharpness: assign_sharpness(solid, VertexId{step.id}, step.after); break;
+    case Kind::add_cell:
+      given = solid.push_cell(ids(FaceUseId{}, 0, payload.size())).value;
+      break;
+    case Kind::remove_vertex:
+      solid.set_live(VertexId{step.id}, false);
+      break;
+    case Kind::remove_edge:
+      solid.set_live(EdgeId{step.id}, false);
+      break;
+    case Kind::remove_face:
+      solid.set_live(FaceId{step.id}, false);
+      break;
+    case Kind::remove_cell:
+      solid.set_live(CellId{step.id}, false);
+      break;
+    case Kind::edge_sharpness:
+      assign_sharpness(solid, EdgeId{step.id}, step.after);
+      break;
+    case Kind::vertex_sharpness:
+      assign_sharpness(solid, VertexId{step.id}, step.after);
+      break;
   }
   assert(given == step.id);
 }

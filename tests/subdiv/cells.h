@@ -1,6 +1,8 @@
 #pragma once
 // Small solids for the tests of topology.
 
+#include <array>
+#include <cmath>
 #include <initializer_list>
 #include <vector>
 

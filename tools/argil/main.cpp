@@ -1,6 +1,121 @@
-#include <cstdio>
+// The command line of Argil: parses, calls a subcommand, and turns errors into messages and exit statuses.
 
-int main() {
-  std::puts("argil " ARGIL_VERSION);
-  return 0;
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "subdiv/error.h"
+#include "tools/argil/program.h"
+
+namespace {
+
+using namespace argil::tools;
+
+int run(int argc, char** argv) {
+  CLI::App app{"Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
+  app.name("argil");
+  app.set_version_flag("--version", "argil " ARGIL_VERSION);
+  app.require_subcommand(1);
+  app.footer("`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
+             "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
+  int status = k_well;
+
+  ReplayArguments replaying;
+  CLI::App* replay_app = app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
+  replay_app->add_option("session", replaying.session, "the session file")->required();
+  replay_app->add_option("--out", replaying.out, "folder for results (default: out/<session name>)");
+  replay_app->add_option("--threads", replaying.threads, "threads; the results are the same bits for any number")
+      ->check(CLI::Range(1, 1024));
+  replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")->check(CLI::NonNegativeNumber);
+  replay_app->add_option("--hash-trace", replaying.hash_trace, "write one state hash a step, for `argil diff`");
+  replay_app->add_option("--set", replaying.overrides,
+                         "stand in for a command of the session: --set space=cubic, --set levels=1");
+  replay_app->add_option("--max-cells", replaying.limits.cells, "refuse to make more cells")->capture_default_str();
+  replay_app->add_option("--max-steps", replaying.limits.steps, "refuse to take more steps")->capture_default_str();
+  replay_app->add_option("--max-memory", replaying.limits.memory, "bytes, estimated before allocating")->capture_default_str();
+  replay_app->add_flag("--json", replaying.json, "print the summary to standard output");
+  replay_app->add_flag("--quiet", replaying.quiet, "no progress, no messages");
+  replay_app->add_flag("!--no-pictures", replaying.pictures, "skip `render`");
+  replay_app->footer("summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
+                     "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
+                     "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
+                     "threads, measures, expectations.");
+  replay_app->callback([&] { status = replay(replaying); });
+
+  std::filesystem::path first, second;
+  bool json = false, limit = false;
+  int levels = 0, split = 1;
+  std::string space = "default", command;
+  std::size_t max_cells = argil::sculpt::Limits{}.cells;
+
+  CLI::App* diff_app = app.add_subcommand("diff", "Names the first command and step at which two hash traces differ");
+  diff_app->add_option("trace_a", first)->required();
+  diff_app->add_option("trace_b", second)->required();
+  diff_app->add_flag("--json", json, "print the answer as JSON");
+  diff_app->callback([&] { status = diff(first, second, json); });
+
+  CLI::App* info_app = app.add_subcommand("info", "Counts, measures and quality of a volume mesh");
+  info_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  info_app->add_flag("--json", json, "print as JSON");
+  info_app->callback([&] { status = info(first, json); });
+
+  CLI::App* refine_app = app.add_subcommand("refine", "Refines a volume mesh by MacCracken–Joy subdivision");
+  refine_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  refine_app->add_option("out", second, "a volume mesh, or its boundary as .obj .ply .stl")->required();
+  refine_app->add_option("--levels", levels, "how often")->required()->check(CLI::Range(0, 8));
+  refine_app->add_flag("--limit", limit, "put the vertices where infinitely many refinements would");
+  refine_app->add_option("--max-cells", max_cells, "refuse to make more cells")->capture_default_str();
+  refine_app->callback([&] { status = refine(first, second, levels, limit, max_cells); });
+
+  CLI::App* elements_app = app.add_subcommand("elements", "Classes of cells and counts of finite elements");
+  elements_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  elements_app->add_option("--levels", levels, "refinements")->required()->check(CLI::Range(0, 8));
+  elements_app->add_option("--space", space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
+  elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")->check(CLI::Range(0, 3));
+  elements_app->add_flag("--json", json, "print as JSON");
+  elements_app->add_option("--max-cells", max_cells, "refuse to make more cells")->capture_default_str();
+  elements_app->callback([&] { status = elements(first, levels, space, split, json, max_cells); });
+
+  CLI::App* convert_app = app.add_subcommand("convert", "Writes a volume mesh, or its boundary, in another format");
+  convert_app->add_option("in", first, ".mesh, .vtk or .vtu")->required();
+  convert_app->add_option("out", second, ".mesh .vtk .vtu, or .obj .ply .stl for the boundary")->required();
+  convert_app->callback([&] { status = convert(first, second); });
+
+  RenderArguments rendering;
+  CLI::App* render_app = app.add_subcommand("render", "Makes a picture of a volume mesh, without a display");
+  render_app->add_option("mesh", rendering.mesh, ".mesh, .vtk or .vtu")->required();
+  render_app->add_option("out", rendering.out, "a .png")->required();
+  render_app->add_option("--levels", rendering.levels, "refinements")->check(CLI::Range(0, 8));
+  render_app->add_option("--with", rendering.options,
+                         "arguments of the session command `render`, as in --with \"cage size 800 600\"");
+  render_app->callback([&] { status = render(rendering); });
+
+  CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
+  help_app->add_option("command", command, "a command of a session");
+  help_app->callback([&] { status = help(command); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? k_well : k_bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const argil::Error& error) {
+    std::fprintf(stderr, "argil: %s%s%s\n", error.where().c_str(), error.where().empty() ? "" : ": ", error.what());
+    return k_bad_input;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
+    return k_bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "argil: this is a bug of ours: %s\n", error.what());
+    return k_own_bug;
+  }
 }

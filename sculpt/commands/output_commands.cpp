@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/image.h"
+#include "io/volume_mesh.h"
+#include "sculpt/commands/commands.h"
+#include "sculpt/commands/edit.h"
+#include "sculpt/export.h"
+#include "sculpt/measures.h"
+#include "sculpt/picture.h"
+#include "sculpt/region.h"
+#include "sculpt/session.h"
+#include "subdiv/error.h"
+
+namespace argil::sculpt {
+
+namespace {
+
+double measured_value(const Session& session, const Arguments& arguments) {
+  require_solid(session);
+  MeasureQuery query{.name = arguments.word("measure"), .at = std::nullopt, .where = arguments.expression("where")};
+  if (arguments.has("at")) query.at = arguments.vector("at");
+  return measure(session.document(), query);
+}
+
+std::string unit_of(const std::string& name) {
+  for (const MeasureInfo& info : measure_table())
+    if (info.name == name) return info.unit.empty() ? "" : " " + info.unit;
+  return "";
+}
+
+void print_measure(Session& session, const Arguments& arguments) {
+  const double value = measured_value(session, arguments);
+  const std::string& name = arguments.word("measure");
+  session.measured(arguments.word("as", name), value);
+  session.print(fmt::format("{} = {:.10g}{}", arguments.word("as", name), value, unit_of(name)));
+}
+
+void expect(Session& session, const Arguments& arguments) {
+  const double value = measured_value(session, arguments);
+  const std::string& name = arguments.word("measure");
+  const std::string unit = unit_of(name);
+  ++session.expectations;
+  session.measured(name, value);
+  const auto fail = [&](const std::string& expected) {
+    session.expectation_failed(fmt::format("expected {} {}{}, found {:.10g}{}", name, expected, unit, value, unit));
+  };
+  bool checked = false;
+  if (arguments.has("value")) {
+    const double expected = arguments.number("value");
+    // "1%" is a share of the expected value, a plain number an absolute bound.
+    const bool relative = arguments.has("within") && arguments.at("within").at.text.ends_with('%');
+    const double within = arguments.number("within", 0) * (relative ? std::abs(expected) : 1);
+    checked = true;
+    if (!(std::abs(value - expected) <= within))
+      fail(fmt::format("{:.10g}{}", expected,
+                       arguments.has("within") ? " within " + arguments.at("within").at.text : std::string{}));
+  }
+  if (arguments.has("above")) {
+    checked = true;
+    if (!(value > arguments.number("above"))) fail(fmt::format("above {:.10g}", arguments.number("above")));
+  }
+  if (arguments.has("below")) {
+    checked = true;
+    if (!(value < arguments.number("below"))) fail(fmt::format("below {:.10g}", arguments.number("below")));
+  }
+  if (!checked)
+    throw Error(ErrorCode::bad_input, "expect wants a value, `above V` or `below V`, as in `expect volume 0.03 within 1%`");
+}
+
+void save(Session& session, const Arguments& arguments) {
+  require_solid(session);
+  const auto path = session.path_to_write(arguments.word("file"));
+  const int level = static_cast<int>(arguments.integer("level", session.document().state().level));
+  if (level > session.document().state().level)
+    throw Error(ErrorCode::bad_input, fmt::format("the solid is at level {}; write `levels {}` first",
+                                                  session.document().state().level, level));
+  for (const std::string& note : save_document(session.document(), path, level)) session.print(note);
+}
+
+void render(Session& session, const Arguments& arguments) {
+  require_solid(session);
+  PictureRequest request;
+  request.field = arguments.word("field", "");
+  if (arguments.has("range")) {
+    const auto& range = arguments.numbers("range");
+    if (!(range[0] < range[1])) throw Error(ErrorCode::bad_input, "a range rises: `range 0 0.1`");
+    request.range = {range[0], range[1]};
+    if (request.field.empty()) throw Error(ErrorCode::bad_input, "a range is of a field; add `field strain`");
+  }
+  if (arguments.has("clip")) {
+    const auto& plane = arguments.numbers("clip");
+    request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
+  }
+  const std::string style = arguments.word("style", "solid");
+  request.style = style == "wireframe"            ? PictureStyle::wireframe
+                  : style == "boundary_wireframe" ? PictureStyle::boundary_wireframe
+                                                  : PictureStyle::solid;
+  request.cage = arguments.has("cage");
+  request.marks = !arguments.has("plain");
+  if (arguments.has("net")) request.net_cell = static_cast<std::uint32_t>(arguments.integer("net", 0));
+  request.net_steps = static_cast<int>(arguments.integer("net_steps", 4));
+  PictureOptions options;
+  if (arguments.has("size")) {
+    options.width = static_cast<int>(arguments.numbers("size")[0]);
+    options.height = static_cast<int>(arguments.numbers("size")[1]);
+  }
+  options.view_from = arguments.vector("from", options.view_from);
+  options.zoom = arguments.number("zoom", 1);
+  options.wireframe = !arguments.has("smooth");
+  options.light_theme = arguments.has("light");
+  const std::string& name = arguments.word("file");
+  if (!name.ends_with(".png"))
+    throw Error(ErrorCode::bad_input, fmt::format("a picture is a .png file, not '{}'", name));
+  const auto path = session.path_to_write(name);
+  Renderer* renderer = session.options().renderer;
+  if (!renderer) {
+    ++session.skipped_pictures;
+    session.print(fmt::format("{} skipped: there is no renderer", name));
+    return;
+  }
+  const Picture picture = renderer->render(make_scene(session.document(), request), options);
+  io::write_png(path, picture.width, picture.height, picture.rgba);
+}
+
+}  // namespace
+
+std::vector<Command> output_commands() {
+  std::vector<std::string> measures;
+  for (const MeasureInfo& info : measure_table()) measures.push_back(info.name);
+  const Parameter measure_name{.name = "measure", .type = ArgumentType::word, .help = "what: see the choices",
+                               .positional = true, .required = true, .choices = measures};
+  const Parameter at{.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3};
+  const Parameter where{.name = "where", .type = ArgumentType::expression, .help = "only these nodes (reactions: control vertices)"};
+  return {
+      {.name = "measure",
+       .summary = "Prints a measure, and keeps it in the summary.",
+       .parameters = {measure_name, at, {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"}, where},
+       .example = "measure displacement_z at 0.4 0.05 0.05",
+       .effect = Effect::output,
+       .run = print_measure},
+      {.name = "expect",
+       .summary = "Checks a measure; if it does not hold, the session goes on and ends with exit status 1.",
+       .parameters = {measure_name,
+                      {.name = "value", .help = "the value expected", .positional = true},
+                      {.name = "within", .help = "how far off it may be; with % as a share of the value", .low = 0, .high = 1e300},
+                      {.name = "above", .help = "it must be larger"},
+                      {.name = "below", .help = "it must be smaller"},
+                      at,
+                      where},
+       .example = "expect volume 0.0312 within 1%",
+       .effect = Effect::output,
+       .run = expect},
+      {.name = "save",
+       .summary = "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl), beneath --out.",
+       .parameters = {{.name = "file", .type = ArgumentType::text, .help = "beneath the folder given with --out",
+                       .positional = true, .required = true},
+                      {.name = "level", .type = ArgumentType::integer, .help = "refinement level; else the finest; 0 is the cage",
+                       .low = 0, .high = 8}},
+       .example = "save chair.vtu",
+       .effect = Effect::output,
+       .run = save},
+      {.name = "render",
+       .summary = "Makes a picture of the solid as it is now.",
+       .parameters =
+           {{.name = "file", .type = ArgumentType::text, .help = "a .png beneath the folder given with --out",
+             .positional = true, .required = true},
+            {.name = "field", .type = ArgumentType::word, .help = "colours, with a legend", .choices = shown_field_names()},
+            {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
+            {.name = "clip", .help = "a plane (point, then normal): whole cells beyond it are taken away", .count = 6},
+            {.name = "style", .type = ArgumentType::word, .help = "how", .choices = {"solid", "wireframe", "boundary_wireframe"}},
+            {.name = "cage", .help = "with the control cage", .flag = true},
+            {.name = "plain", .help = "without arrows and pins", .flag = true},
+            {.name = "smooth", .help = "without the wires of cells", .flag = true},
+            {.name = "light", .help = "on light ground", .flag = true},
+            {.name = "size", .type = ArgumentType::integer, .help = "width and height", .unit = "px", .count = 2, .low = 1,
+             .high = 4096},
+            {.name = "from", .help = "direction from the solid to the eye", .count = 3},
+            {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
+            {.name = "net", .type = ArgumentType::integer, .help = "this cell of the finest level in its 4×4×4 net instead",
+             .low = 0, .high = 4e9},
+            {.name = "net_steps", .type = ArgumentType::integer, .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
+             .low = 1, .high = 4}},
+       .example = "render chair.png field strain",
+       .effect = Effect::output,
+       .run = render},
+  };
+}
+
+}  // namespace argil::sculpt

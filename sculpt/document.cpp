@@ -1,0 +1,280 @@
+#include "sculpt/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sculpt/document_loads.h"
+#include "sculpt/hash.h"
+#include "subdiv/error.h"
+
+namespace argil::sculpt {
+
+const std::array<FieldInfo, k_field_count>& field_table() {
+  // Defaults of a soft modelling clay-like rubber.
+  static const std::array<FieldInfo, k_field_count> table{{
+      {FieldName::young_modulus, "young_modulus", "Pa", 1e5, 1e-3, 1e13},
+      {FieldName::poisson_ratio, "poisson_ratio", "", 0.3, -0.9, 0.499},
+      {FieldName::density, "density", "kg/m^3", 1000, 1e-6, 1e6},
+      {FieldName::damping, "damping", "1/s", 0, 0, 1e9},
+      {FieldName::mask, "mask", "", 0, 0, 1},
+  }};
+  return table;
+}
+
+FieldName field_by_word(const std::string& word) {
+  std::string names;
+  for (const FieldInfo& field : field_table()) {
+    if (word == field.word) return field.name;
+    names += (names.empty() ? "" : ", ") + std::string(field.word);
+  }
+  throw Error(ErrorCode::not_found, fmt::format("'{}' is not a field; fields are {}", word, names));
+}
+
+const char* word(ElementType type) {
+  switch (type) {
+    case ElementType::vertices: return "vertices";
+    case ElementType::edges: return "edges";
+    case ElementType::faces: return "faces";
+    case ElementType::cells: return "cells";
+    case ElementType::nodes: return "nodes";
+  }
+  return "";
+}
+
+namespace {
+
+fem::NodalFields nodal_fields(const Fields& f) {
+  return {f[FieldName::young_modulus], f[FieldName::poisson_ratio], f[FieldName::density], f[FieldName::damping]};
+}
+
+}  // namespace
+
+// Each derived thing keeps what it was made of, so that it is made again exactly when that has changed.
+struct Document::Derived {
+  std::uint64_t topology = 0;
+  int level = -1;
+  std::unique_ptr<subdiv::Refinement> refinement;
+  std::unique_ptr<subdiv::BoundarySurface> surface;
+
+  std::shared_ptr<const Eigen::Matrix3Xd> rest;
+  std::shared_ptr<const Fields> fields;
+  fem::Space space = fem::Space::standard;
+  int split = -1;
+  std::unique_ptr<fem::Discretization> discretization;
+  std::unique_ptr<subdiv::Stencils> transposed;
+  std::unique_ptr<fem::ShownElements> shown_elements;
+
+  std::string model_name;
+  std::unique_ptr<fem::ForceModel> model;
+
+  std::shared_ptr<const Pins> integrator_pins;
+  std::unique_ptr<fem::Integrator> integrator;
+
+  std::shared_ptr<const Pins> load_pins;
+  std::shared_ptr<const AppliedLoads> applied;
+  std::unique_ptr<fem::Loads> loads;
+
+  void drop_from_discretization() {
+    integrator.reset();
+    loads.reset();
+    model.reset();
+    transposed.reset();
+    shown_elements.reset();
+    discretization.reset();
+  }
+};
+
+Document::Document() : derived_(std::make_unique<Derived>()) {
+  state_.solid = std::make_shared<subdiv::Solid>();
+  state_.rest = std::make_shared<Eigen::Matrix3Xd>(3, 0);
+  auto motion = std::make_shared<fem::BodyState>();
+  motion->positions.resize(3, 0);
+  motion->velocities.resize(3, 0);
+  state_.motion = motion;
+  state_.fields = initial_fields(0);
+  state_.pins = std::make_shared<Pins>();
+  state_.loads = std::make_shared<AppliedLoads>();
+  state_.selection = std::make_shared<Selection>();
+  state_.sets = std::make_shared<std::map<std::string, Selection>>();
+}
+
+Document::~Document() = default;
+
+const subdiv::Refinement& Document::refinement() const {
+  Derived& d = *derived_;
+  const std::uint64_t topology = solid().topology_hash();
+  if (!d.refinement || d.topology != topology || d.level != state_.level) {
+    d.drop_from_discretization();
+    d.surface.reset();
+    d.refinement = std::make_unique<subdiv::Refinement>(subdiv::refine_to_level(solid(), state_.level));
+    d.topology = topology;
+    d.level = state_.level;
+  }
+  return *d.refinement;
+}
+
+const fem::Discretization& Document::discretization() const {
+  Derived& d = *derived_;
+  const subdiv::Refinement& refined = refinement();
+  const bool same_shape =
+      d.discretization && d.rest == state_.rest && d.space == state_.space && d.split == state_.split;
+  if (same_shape && d.fields == state_.fields) return *d.discretization;
+  const fem::NodalFields nodal = nodal_fields(*state_.fields);
+  d.integrator.reset();
+  d.loads.reset();
+  d.model.reset();
+  d.shown_elements.reset();
+  if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
+    d.drop_from_discretization();
+    d.discretization = std::make_unique<fem::Discretization>(
+        fem::discretize(refined, rest(), nodal, {.space = state_.space, .split = state_.split}));
+    d.transposed = std::make_unique<subdiv::Stencils>(subdiv::transpose(d.discretization->nodes.rows));
+  }
+  d.rest = state_.rest;
+  d.fields = state_.fields;
+  d.space = state_.space;
+  d.split = state_.split;
+  return *d.discretization;
+}
+
+const fem::ForceModel& Document::model() const {
+  Derived& d = *derived_;
+  const fem::Discretization& discretized = discretization();
+  if (!d.model || d.model_name != state_.model) {
+    d.integrator.reset();
+    d.model = state_.model == "linear" ? fem::make_linear(discretized.blocks, discretized.rest_nodes)
+                                       : fem::make_corotational(discretized.blocks, discretized.rest_nodes);
+    d.model_name = state_.model;
+  }
+  return *d.model;
+}
+
+fem::System Document::system() const {
+  const fem::ForceModel& force_model = model();
+  const Derived& d = *derived_;
+  fem::System system;
+  system.rows = &d.discretization->nodes.rows;
+  system.rows_transposed = d.transposed.get();
+  system.model = &force_model;
+  system.rest_nodes = &d.discretization->rest_nodes;
+  system.mass = &d.discretization->mass;
+  system.damping = &d.discretization->damping;
+  system.fixed.assign(solid().vertex_capacity(), 0);
+  for (const std::uint32_t v : state_.pins->control_points) system.fixed[v] = 1;
+  // Ids whose element was removed carry no mass and no row: they stay where they are.
+  for (std::size_t v = 0; v < system.fixed.size(); ++v)
+    if (!solid().is_live(subdiv::VertexId{v})) system.fixed[v] = 1;
+  return system;
+}
+
+fem::Integrator& Document::integrator() const {
+  Derived& d = *derived_;
+  (void)model();
+  if (!d.integrator || d.integrator_pins != state_.pins) {
+    d.integrator = std::make_unique<fem::Integrator>(system());
+    d.integrator_pins = state_.pins;
+  }
+  return *d.integrator;
+}
+
+const fem::Loads& Document::loads() const {
+  Derived& d = *derived_;
+  (void)discretization();
+  if (!d.loads || d.load_pins != state_.pins || d.applied != state_.loads) {
+    d.loads = std::make_unique<fem::Loads>(document_loads(*this));
+    d.load_pins = state_.pins;
+    d.applied = state_.loads;
+  }
+  return *d.loads;
+}
+
+const subdiv::BoundarySurface& Document::surface() const {
+  const subdiv::Refinement& refined = refinement();
+  if (!derived_->surface)
+    derived_->surface = std::make_unique<subdiv::BoundarySurface>(subdiv::boundary_surface(refined.solid()));
+  return *derived_->surface;
+}
+
+const fem::ShownElements& Document::shown_elements() const {
+  (void)discretization();
+  if (!derived_->shown_elements)
+    derived_->shown_elements = std::make_unique<fem::ShownElements>(refinement().solid(), surface_nodes(rest()),
+                                                                    nodal_fields(*state_.fields));
+  return *derived_->shown_elements;
+}
+
+Eigen::Matrix3Xd Document::surface_nodes(const Eigen::Matrix3Xd& control_points) const {
+  const fem::Discretization& discretized = discretization();
+  const Eigen::Matrix3Xd nodes = subdiv::apply(discretized.nodes.rows, control_points);
+  Eigen::Matrix3Xd shown(3, discretized.surface_node_from_vertex.size());
+  for (Eigen::Index v = 0; v < shown.cols(); ++v)
+    shown.col(v) = nodes.col(discretized.surface_node_from_vertex[static_cast<std::size_t>(v)]);
+  return shown;
+}
+
+std::uint64_t Document::state_hash() const {
+  const State& s = state_;
+  Hash hash;
+  const auto add_matrix = [&](const auto& m) { hash.add(std::span<const double>(m.data(), static_cast<std::size_t>(m.size()))); };
+  hash.add(solid().topology_hash());
+  add_matrix(*s.rest);
+  const fem::BodyState& motion = *s.motion;
+  add_matrix(motion.positions);
+  add_matrix(motion.velocities);
+  add_matrix(motion.previous_positions);
+  add_matrix(motion.previous_velocities);
+  hash.add(motion.previous_step);
+  hash.add(motion.time);
+  for (const auto& values : s.fields->values) add_matrix(values);
+  hash.add(std::uint64_t{s.pins->control_points.size()});
+  for (const std::uint32_t v : s.pins->control_points) hash.add(std::uint64_t{v});
+  hash.add(std::uint64_t{s.pins->nodes.size()});
+  for (const SoftPin& pin : s.pins->nodes) {
+    hash.add(std::uint64_t{pin.node});
+    hash.add(pin.stiffness);
+    add_matrix(pin.target);
+  }
+  add_matrix(s.loads->gravity);
+  hash.add(std::uint64_t{s.loads->forces.size()});
+  for (const AppliedForce& force : s.loads->forces) {
+    add_matrix(force.force);
+    add_matrix(force.point);
+    hash.add(std::uint64_t{force.faces.size()});
+    for (const std::uint32_t f : force.faces) hash.add(std::uint64_t{f});
+  }
+  const auto add_selection = [&](const Selection& selection) {
+    hash.add(static_cast<std::uint64_t>(selection.type));
+    hash.add(std::uint64_t{selection.ids.size()});
+    for (const std::uint32_t id : selection.ids) hash.add(std::uint64_t{id});
+  };
+  add_selection(*s.selection);
+  hash.add(std::uint64_t{s.sets->size()});
+  for (const auto& [name, set] : *s.sets) {
+    hash.add(std::string_view(name));
+    add_selection(set);
+  }
+  hash.add(static_cast<std::uint64_t>(s.level));
+  hash.add(static_cast<std::uint64_t>(s.space));
+  hash.add(static_cast<std::uint64_t>(s.split));
+  hash.add(std::string_view(s.model));
+  hash.add(static_cast<std::uint64_t>(s.method));
+  hash.add(static_cast<std::uint64_t>(s.newton_cap));
+  hash.add(s.time_step);
+  hash.add(s.tick_carry);
+  hash.add(std::string_view(s.tool.name));
+  hash.add(s.tool.radius);
+  hash.add(s.tool.strength);
+  hash.add(s.tool.largest_force);
+  hash.add(std::string_view(s.tool.falloff));
+  return hash.value();
+}
+
+std::shared_ptr<const Fields> initial_fields(std::size_t node_count) {
+  auto fields = std::make_shared<Fields>();
+  for (const FieldInfo& info : field_table())
+    (*fields)[info.name] = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(node_count), info.initial);
+  return fields;
+}
+
+}  // namespace argil::sculpt

@@ -1,0 +1,147 @@
+#pragma once
+// The document: one solid with everything that a command may change (SESSION.md, "State"), and what is derived from it.
+// State is held in parts that never change once made, so that remembering a state for undo costs a few pointers; the
+// topology alone is edited in place, by transactions whose deltas undo keeps.
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/discretization.h"
+#include "fem/dynamics/integrator.h"
+#include "fem/measure/shown_elements.h"
+#include "subdiv/boundary.h"
+#include "subdiv/refinement.h"
+#include "subdiv/transaction.h"
+
+namespace argil::sculpt {
+
+enum class FieldName { young_modulus, poisson_ratio, density, damping, mask };
+inline constexpr int k_field_count = 5;
+struct FieldInfo {
+  FieldName name;
+  const char* word;
+  const char* unit;
+  double initial, low, high;  // low and high are allowed
+};
+/// The fields, in the order of FieldName.
+[[nodiscard]] const std::array<FieldInfo, k_field_count>& field_table();
+/// @throws Error (not_found) that lists the names.
+[[nodiscard]] FieldName field_by_word(const std::string& word);
+
+/// Values at the vertices of the finest level, by vertex id.
+struct Fields {
+  std::array<Eigen::VectorXd, k_field_count> values;
+  const Eigen::VectorXd& operator[](FieldName name) const { return values[static_cast<std::size_t>(name)]; }
+  Eigen::VectorXd& operator[](FieldName name) { return values[static_cast<std::size_t>(name)]; }
+};
+
+struct SoftPin {
+  std::uint32_t node;      // vertex of the finest level
+  double stiffness;        // [N/m]
+  Eigen::Vector3d target;  // [m]
+};
+struct Pins {
+  std::vector<std::uint32_t> control_points;  // ascending; move exactly 0
+  std::vector<SoftPin> nodes;                 // ascending; by penalty
+};
+
+/// A force that stays until it is cleared: on boundary faces of the control solid, or at a material point.
+struct AppliedForce {
+  Eigen::Vector3d force;                     // [N], in total
+  std::vector<std::uint32_t> faces;          // control faces; empty: at `point`
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // rest position
+};
+struct AppliedLoads {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s²]
+  std::vector<AppliedForce> forces;
+};
+
+enum class ElementType { vertices, edges, faces, cells, nodes };
+[[nodiscard]] const char* word(ElementType type);
+struct Selection {
+  ElementType type = ElementType::vertices;
+  std::vector<std::uint32_t> ids;  // ascending; nodes are vertices of the finest level
+};
+
+struct Tool {
+  std::string name = "pull";
+  double radius = 0.1;          // [m]
+  double strength = 50;         // [N/m]
+  double largest_force = 1e6;   // [N]
+  std::string falloff = "smooth";
+};
+
+/// Everything that undo restores, but for the topology itself.
+struct State {
+  std::shared_ptr<subdiv::Solid> solid;                 // edited in place; replaced by `new` and `open`
+  std::shared_ptr<const Eigen::Matrix3Xd> rest;         // P, 3 x vertex capacity [m]
+  std::shared_ptr<const fem::BodyState> motion;         // p, v, history, time
+  std::shared_ptr<const Fields> fields;
+  std::shared_ptr<const Pins> pins;
+  std::shared_ptr<const AppliedLoads> loads;
+  std::shared_ptr<const Selection> selection;
+  std::shared_ptr<const std::map<std::string, Selection>> sets;
+  int level = 0;
+  fem::Space space = fem::Space::standard;
+  int split = 1;
+  std::string model = "corotational";
+  fem::Method method = fem::Method::bdf2;
+  int newton_cap = 3;
+  double time_step = 1.0 / 60;  // [s]
+  double tick_carry = 0;        // part of a device tick [0, 1) that a step left over
+  Tool tool;
+};
+
+/// Bounds checked before anything is allocated.
+struct Limits {
+  std::size_t cells = 4'000'000;
+  std::size_t steps = 1'000'000;
+  std::size_t memory = std::size_t{12} << 30;  // [bytes], estimated
+};
+
+class Document {
+ public:
+  Document();
+  ~Document();
+
+  const State& state() const { return state_; }
+  /// What a command does: builds the next state from a copy and hands it over. Topology edits come with their delta,
+  /// already applied to the solid.
+  void assign(State next) { state_ = std::move(next); }
+  bool empty() const { return state_.solid->cell_count() == 0; }
+  const subdiv::Solid& solid() const { return *state_.solid; }
+  const Eigen::Matrix3Xd& rest() const { return *state_.rest; }
+  const Eigen::Matrix3Xd& positions() const { return state_.motion->positions; }
+
+  // Derived, made when asked for and kept while what they depend on stays.
+  const subdiv::Refinement& refinement() const;
+  const fem::Discretization& discretization() const;
+  const fem::ForceModel& model() const;
+  fem::System system() const;
+  fem::Integrator& integrator() const;
+  /// Loads that do not come from a tool, in control points, with the soft pins as springs.
+  const fem::Loads& loads() const;
+  const subdiv::BoundarySurface& surface() const;  // of the finest level
+  const fem::ShownElements& shown_elements() const;  // for strain and stress
+  /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x vertices.
+  Eigen::Matrix3Xd surface_nodes(const Eigen::Matrix3Xd& control_points) const;
+
+  /// FNV-1a over the canonical state (SESSION.md, "Promises").
+  [[nodiscard]] std::uint64_t state_hash() const;
+
+  Limits limits;
+
+ private:
+  State state_;
+  struct Derived;
+  mutable std::unique_ptr<Derived> derived_;
+};
+
+/// Every field at its initial value.
+[[nodiscard]] std::shared_ptr<const Fields> initial_fields(std::size_t node_count);
+
+}  // namespace argil::sculpt

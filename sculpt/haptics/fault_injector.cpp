@@ -1,0 +1,42 @@
+#include "sculpt/haptics/fault_injector.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace argil::sculpt {
+
+FaultInjector::FaultInjector(Device& device, std::vector<FaultSpan> spans)
+    : device_(device), spans_(std::move(spans)) {
+  for (const FaultSpan& span : spans_) {
+    assert(span.amount >= 0);
+    longest_delay_ = std::max(longest_delay_, span.amount);
+  }
+}
+
+DeviceSample FaultInjector::exchange(const ForceCommand& command, Tick tick) {
+  const auto rules = [&](const FaultSpan& span, DeviceFault fault) {
+    return span.fault == fault && span.first <= tick && tick <= span.last;
+  };
+  const auto any = [&](DeviceFault fault) {
+    return std::any_of(spans_.begin(), spans_.end(), [&](const FaultSpan& span) { return rules(span, fault); });
+  };
+  if (any(DeviceFault::stall)) return samples_.empty() ? DeviceSample{} : samples_.back();
+
+  if (!any(DeviceFault::drop)) delivered_ = command;
+  samples_.push_back(device_.exchange(delivered_, tick));
+  // Keep one sample at or before the oldest tick that can be asked for.
+  while (samples_.size() > 1 && samples_[1].tick <= tick - longest_delay_) samples_.erase(samples_.begin());
+
+  Tick delay = 0;
+  for (const FaultSpan& span : spans_)
+    if (rules(span, DeviceFault::delay)) delay = std::max(delay, span.amount);
+  std::size_t i = samples_.size() - 1;
+  while (i > 0 && samples_[i].tick > tick - delay) --i;
+  DeviceSample sample = samples_[i];
+  if (any(DeviceFault::not_a_number)) sample.pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return sample;
+}
+
+}  // namespace argil::sculpt

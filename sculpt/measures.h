@@ -1,0 +1,38 @@
+#pragma once
+// What `measure` and `expect` can ask of a document: one table of names with units.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sculpt/document.h"
+#include "sculpt/where.h"
+
+namespace argil::sculpt {
+
+struct MeasureInfo {
+  std::string name, unit, help;
+  bool at_point = false;   // wants `at X Y Z`, a material point by its rest position
+  bool over_nodes = false; // may be narrowed by `where` on nodes
+};
+/// In order of name.
+[[nodiscard]] const std::vector<MeasureInfo>& measure_table();
+
+struct MeasureQuery {
+  std::string name;
+  std::optional<Eigen::Vector3d> at;
+  const Expression* where = nullptr;
+};
+/// @throws Error (not_found) for another name; (bad_input) for a missing or superfluous point or condition.
+[[nodiscard]] double measure(const Document& document, const MeasureQuery& query);
+
+/// Fields that pictures and files can show, per vertex of the finest level.
+struct ShownField {
+  Eigen::VectorXd values;
+  std::string title, unit;
+};
+/// strain, stress, displacement, speed, or a field of the document. @throws Error (not_found) listing them.
+[[nodiscard]] ShownField shown_field(const Document& document, const std::string& name);
+[[nodiscard]] std::vector<std::string> shown_field_names();
+
+}  // namespace argil::sculpt

@@ -1,0 +1,142 @@
+#include "sculpt/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sculpt/document_loads.h"
+#include "sculpt/measures.h"
+#include "sculpt/region.h"
+#include "subdiv/error.h"
+#include "subdiv/neighbourhood.h"
+#include "subdiv/radial_edge.h"
+
+namespace argil::sculpt {
+
+namespace {
+
+using namespace subdiv;
+
+Eigen::Vector3f single(const Eigen::Vector3d& v) {
+  return v.cast<float>();
+}
+
+double extent(const Eigen::Matrix3Xd& positions) {
+  if (positions.cols() == 0) return 1;
+  return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+}
+
+void add_lines(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positions, bool boundary_only) {
+  for (const EdgeId e : solid.edges()) {
+    if (boundary_only && !solid.is_boundary(e)) continue;
+    const auto& ends = solid.edge_vertices(e);
+    scene.cage_lines.push_back({single(positions.col(static_cast<Eigen::Index>(ends[0].index()))),
+                                single(positions.col(static_cast<Eigen::Index>(ends[1].index())))});
+  }
+}
+
+void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& now) {
+  const double size = extent(now);
+  // A pinned control point is shown where it holds the surface.
+  const auto node = node_from_control_vertex(document);
+  for (const std::uint32_t v : document.state().pins->control_points)
+    scene.pins.push_back(single(now.col(node[v])));
+  if (!document.state().pins->nodes.empty()) {
+    for (const SoftPin& pin : document.state().pins->nodes) scene.pins.push_back(single(now.col(pin.node)));
+  }
+  double largest = 0;
+  for (const AppliedForce& force : document.state().loads->forces) largest = std::max(largest, force.force.norm());
+  for (const AppliedForce& force : document.state().loads->forces) {
+    if (!(force.force.norm() > 0)) continue;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    if (force.faces.empty()) {
+      at = fem::position(material_point(document, force.point).stencil, document.positions());
+    } else {
+      std::size_t count = 0;
+      for (const std::uint32_t f : force.faces)
+        for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
+          at += document.positions().col(static_cast<Eigen::Index>(v.index()));
+          ++count;
+        }
+      at /= static_cast<double>(count);
+    }
+    // A push ends at the surface and a pull begins there; both are longest for the largest force.
+    const Eigen::Vector3d arrow = 0.25 * size * force.force / largest;
+    scene.arrows.push_back({single(at), single(at + arrow)});
+  }
+}
+
+Scene net_scene(const Document& document, const PictureRequest& request) {
+  const Solid& solid = document.refinement().solid();
+  const CellId cell{*request.net_cell};
+  if (!solid.is_live(cell))
+    throw Error(ErrorCode::bad_input, fmt::format("there is no cell {} at level {}; it has {}", cell.value,
+                                                  document.state().level, solid.cell_count()));
+  const RegularNets nets = regular_nets(solid, classify_cells(solid));
+  const auto found = std::lower_bound(nets.cells.begin(), nets.cells.end(), cell);
+  if (found == nets.cells.end() || *found != cell)
+    throw Error(ErrorCode::bad_input, fmt::format("cell {} is not regular, it has no 4×4×4 net; choose another", cell.value));
+  const auto& net = nets.nodes[static_cast<std::size_t>(found - nets.cells.begin())];
+  const Eigen::Matrix3Xd positions = apply(document.refinement().stencils.back(), document.positions());
+  const Eigen::Matrix3Xd phantoms = apply(nets.phantoms, positions);
+  const auto at = [&](std::uint32_t node) -> Eigen::Vector3d {
+    return node < solid.vertex_capacity() ? positions.col(node)
+                                          : phantoms.col(static_cast<Eigen::Index>(node - solid.vertex_capacity()));
+  };
+  // In Fig. 6 the steps go outwards: a net vertex has as many outer indices as the step that finds it.
+  const auto step_of = [](int i, int j, int k) {
+    const auto outer = [](int a) { return a == 0 || a == 3 ? 1 : 0; };
+    return 1 + outer(i) + outer(j) + outer(k);
+  };
+  Scene scene;
+  CellData<std::uint8_t> kept(solid.cell_capacity(), 0);
+  kept[cell] = 1;
+  scene.surface = cells_surface(solid, positions, kept);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k) {
+        if (step_of(i, j, k) > request.net_steps) continue;
+        const auto index = [](int a, int b, int c) { return static_cast<std::size_t>(16 * a + 4 * b + c); };
+        const Eigen::Vector3d here = at(net[index(i, j, k)]);
+        scene.labels.push_back({single(here), fmt::format("{}", index(i, j, k))});
+        const int next[3][3] = {{i + 1, j, k}, {i, j + 1, k}, {i, j, k + 1}};
+        for (const auto& n : next) {
+          if (n[0] > 3 || n[1] > 3 || n[2] > 3 || step_of(n[0], n[1], n[2]) > request.net_steps) continue;
+          scene.cage_lines.push_back({single(here), single(at(net[index(n[0], n[1], n[2])]))});
+        }
+      }
+  return scene;
+}
+
+}  // namespace
+
+Scene make_scene(const Document& document, const PictureRequest& request) {
+  if (document.empty()) throw Error(ErrorCode::bad_input, "there is no solid to show; begin with `new` or `open`");
+  if (request.net_cell) return net_scene(document, request);
+  const Solid& solid = document.refinement().solid();
+  const Eigen::Matrix3Xd positions =
+      document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
+  Scene scene;
+  if (request.style == PictureStyle::solid) {
+    scene.surface = request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
+  } else {
+    scene.surface = cells_surface(solid, positions);
+    scene.surface.wire.clear();
+    scene.draw_surface = false;
+    add_lines(scene, solid, positions, request.style == PictureStyle::boundary_wireframe);
+  }
+  if (!request.field.empty()) {
+    const ShownField field = shown_field(document, request.field);
+    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title, field.unit);
+    if (request.range) {
+      scene.legend->low = (*request.range)[0];
+      scene.legend->high = (*request.range)[1];
+    }
+  }
+  if (request.cage) add_cage(scene, document.solid(), document.positions());
+  if (request.marks) add_marks(scene, document, positions);
+  return scene;
+}
+
+}  // namespace argil::sculpt

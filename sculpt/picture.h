@@ -1,0 +1,33 @@
+#pragma once
+// From a document to a scene: what `render` shows.
+
+#include <optional>
+#include <string>
+
+#include "sculpt/document.h"
+#include "sculpt/renderer.h"
+#include "sculpt/scene.h"
+
+namespace argil::sculpt {
+
+enum class PictureStyle {
+  solid,              // clay or field colours, with the wires of the finest level's cells
+  wireframe,          // every edge of the refined solid, inside as well
+  boundary_wireframe  // the edges of the boundary only
+};
+
+struct PictureRequest {
+  std::string field;                       // empty: clay
+  std::optional<std::array<double, 2>> range;
+  std::optional<ClipPlane> clip;
+  PictureStyle style = PictureStyle::solid;
+  bool cage = false;
+  bool marks = true;                       // loads as arrows, pins as marks
+  std::optional<std::uint32_t> net_cell;   // instead of the solid: this cell of the finest level in its 4×4×4 net
+  int net_steps = 4;                       // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
+};
+
+/// @throws Error (bad_input) for a cell that is not there or has no net.
+[[nodiscard]] Scene make_scene(const Document& document, const PictureRequest& request);
+
+}  // namespace argil::sculpt

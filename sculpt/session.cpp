@@ -1,0 +1,177 @@
+#include "sculpt/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sculpt/paths.h"
+#include "subdiv/error.h"
+
+namespace argil::sculpt {
+
+Session::Session(SessionOptions options) : options_(std::move(options)) {
+  document_.limits = options_.limits;
+  std::error_code failure;
+  std::filesystem::create_directories(options_.out, failure);
+  if (failure)
+    throw Error(ErrorCode::bad_input, fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
+                                                  options_.out.string(), failure.message()));
+  if (options_.write_journal) {
+    journal_path_ = options_.out / "journal.argil";
+    journal_.open(journal_path_, std::ios::trunc);
+    if (!journal_)
+      throw Error(ErrorCode::bad_input, fmt::format("the journal '{}' cannot be written; choose another folder with --out",
+                                                    journal_path_.string()));
+    journal_ << io::k_session_header << std::endl;
+  }
+  if (!options_.hash_trace.empty()) {
+    trace_.open(options_.hash_trace, std::ios::trunc);
+    if (!trace_)
+      throw Error(ErrorCode::bad_input, fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
+  }
+}
+
+Session::~Session() = default;
+
+void Session::run_text(const std::string& text, const std::string& file_name) {
+  const auto lines = io::parse_session(text, file_name);
+  line_count_ = lines.size();
+  lines_ = 0;
+  for (const io::SessionLine& line : lines) {
+    if (stop_requested()) break;
+    progress(static_cast<double>(lines_) / static_cast<double>(line_count_), line.text);
+    run_line(line);
+    ++lines_;
+  }
+  if (line_count_ > 0) progress(1, "");
+}
+
+void Session::run_line(const std::string& text) {
+  run_line(io::parse_session_line(text, "input", 1));
+}
+
+void Session::run_line(const io::SessionLine& line) {
+  if (line.tokens.empty()) return;
+  const std::string& name = line.tokens[0].text;
+  // `--set levels=1` stands in for the session's own line; what has no line of its own comes after the solid does.
+  const auto replaced = options_.overrides.find(name);
+  if (replaced != options_.overrides.end()) {
+    execute(io::parse_session_line(name + " " + replaced->second, "--set " + name, 1));
+    return;
+  }
+  execute(line);
+  if (name != "new" && name != "open") return;
+  for (const char* setting : {"space", "model", "integrator"}) {
+    const auto found = options_.overrides.find(setting);
+    if (found != options_.overrides.end())
+      execute(io::parse_session_line(std::string(setting) + " " + found->second, std::string("--set ") + setting, 1));
+  }
+}
+
+void Session::execute(const io::SessionLine& line) {
+  current_ = line;
+  const Command& command = find_command(line);
+  const Arguments arguments = bind(command, line);
+  start_ = document_.state();
+  const std::size_t depth = done_.size();
+  try {
+    command.run(*this, arguments);
+  } catch (const Error& error) {
+    if (done_.size() == depth && command.effect == Effect::state) document_.assign(start_);  // a failed command changes nothing
+    if (!error.where().empty() && error.where().find(':') != std::string::npos) throw;
+    const std::string detail = error.where().empty() ? "" : " (" + error.where() + ")";
+    throw Error(error.code(), command.name + ": " + error.what() + detail, place());
+  }
+  journal(io::format_line(line.tokens));
+  trace(command.name);
+}
+
+std::string Session::place() const {
+  return current_.tokens.empty() ? std::string{} : io::place_of(current_, current_.tokens[0]);
+}
+
+void Session::change(State next, subdiv::Delta delta) {
+  done_.push_back({start_, next, std::move(delta)});
+  undone_.clear();
+  document_.assign(std::move(next));
+}
+
+void Session::undo(long count) {
+  if (static_cast<std::size_t>(count) > done_.size())
+    throw Error(ErrorCode::bad_input,
+                fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
+  for (long i = 0; i < count; ++i) {
+    Done& last = done_.back();
+    if (!last.delta.empty()) subdiv::undo(*last.after.solid, last.delta);
+    document_.assign(last.before);
+    undone_.push_back(std::move(last));
+    done_.pop_back();
+  }
+}
+
+void Session::redo(long count) {
+  if (static_cast<std::size_t>(count) > undone_.size())
+    throw Error(ErrorCode::bad_input,
+                fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one", undone_.size(), count));
+  for (long i = 0; i < count; ++i) {
+    Done& next = undone_.back();
+    if (!next.delta.empty()) subdiv::redo(*next.after.solid, next.delta);
+    document_.assign(next.after);
+    done_.push_back(std::move(next));
+    undone_.pop_back();
+  }
+}
+
+std::filesystem::path Session::path_to_read(const std::string& name) const {
+  return path_beneath(options_.read_root, name, "the session's own folder");
+}
+
+std::filesystem::path Session::path_to_write(const std::string& name) const {
+  const auto path = path_beneath(options_.out, name, "the folder given with --out");
+  std::filesystem::create_directories(path.parent_path());
+  return path;
+}
+
+void Session::print(const std::string& message) const {
+  if (options_.print) options_.print(message);
+}
+
+void Session::progress(double fraction, const std::string& what) const {
+  if (options_.progress) options_.progress(fraction, what);
+}
+
+void Session::step_done(const StepRecord& record) {
+  steps_.push_back(record);
+  trace("step");
+  if (line_count_ > 0)
+    progress(static_cast<double>(lines_) / static_cast<double>(line_count_), fmt::format("step {}", steps_.size()));
+  if (steps_.size() >= options_.limits.steps)
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("the session takes more than {} steps; raise --max-steps", options_.limits.steps));
+}
+
+bool Session::stop_requested() const {
+  return options_.until_step >= 0 && steps_.size() >= static_cast<std::size_t>(options_.until_step);
+}
+
+void Session::expectation_failed(const std::string& message) {
+  failed_.push_back({message, place()});
+}
+
+void Session::measured(const std::string& name, double value) {
+  measures_.push_back({name, value, current_.number});
+}
+
+void Session::trace(const std::string& what) {
+  if (!trace_.is_open()) return;
+  trace_ << current_.number << ' ' << what << ' ' << steps_.size() << ' '
+         << fmt::format("{:016x}", document_.state_hash()) << '\n';
+}
+
+void Session::journal(const std::string& line) {
+  if (!journal_.is_open()) return;
+  journal_ << line << std::endl;  // flushed, so that a killed program loses at most the command in progress
+}
+
+}  // namespace argil::sculpt

@@ -1,0 +1,115 @@
+#pragma once
+// A session: a document, its history, its journal, and the world outside that commands may reach (folders, printing, the
+// renderer, progress). The same object runs a file, a line typed by hand, and a test.
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sculpt/command.h"
+#include "sculpt/document.h"
+#include "sculpt/renderer.h"
+
+namespace argil::sculpt {
+
+/// What one simulation step cost and did.
+struct StepRecord {
+  int newton_iterations = 0, linear_iterations = 0;
+  bool converged = false;
+  double ms = 0, ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
+};
+
+struct MeasureRecord {
+  std::string name;
+  double value = 0;
+  int line = 0;
+};
+
+/// An `expect` that did not hold.
+struct FailedExpectation {
+  std::string message, where;
+};
+
+struct SessionOptions {
+  std::filesystem::path read_root = ".";   // files are read beneath it
+  std::filesystem::path out = "out";       // and written beneath this
+  std::filesystem::path hash_trace;        // empty: none
+  std::map<std::string, std::string> overrides;  // command → arguments, `--set space=cubic`
+  long until_step = -1;                    // stop after so many simulation steps; −1: run all
+  bool write_journal = true;
+  Limits limits;
+  Renderer* renderer = nullptr;            // null: pictures are skipped, and said so
+  fem::Clock clock = nullptr;
+  std::function<void(const std::string&)> print;                        // messages for the user
+  std::function<void(double fraction, const std::string& what)> progress;
+};
+
+class Session {
+ public:
+  explicit Session(SessionOptions options);
+  ~Session();
+
+  /// Runs a whole file. Stops at the first Error, which is thrown on with its place; failed expectations are collected.
+  void run_text(const std::string& text, const std::string& file_name);
+  /// Runs one line. A command that throws leaves the document as it was.
+  void run_line(const io::SessionLine& line);
+  void run_line(const std::string& text);
+
+  Document& document() { return document_; }
+  const Document& document() const { return document_; }
+  const SessionOptions& options() const { return options_; }
+
+  // For commands.
+  /// Takes the next state; `delta` is of a topology edit that has been applied.
+  void change(State next, subdiv::Delta delta = {});
+  void undo(long count);
+  void redo(long count);
+  std::size_t undo_depth() const { return done_.size(); }
+  std::size_t redo_depth() const { return undone_.size(); }
+  std::filesystem::path path_to_read(const std::string& name) const;
+  std::filesystem::path path_to_write(const std::string& name) const;
+  void print(const std::string& message) const;
+  void progress(double fraction, const std::string& what) const;
+  /// Called for every simulation step: counts, limits, traces. @throws Error (limit_exceeded).
+  void step_done(const StepRecord& record);
+  /// True once `until_step` is reached: long commands end early.
+  bool stop_requested() const;
+  void expectation_failed(const std::string& message);
+  void measured(const std::string& name, double value);
+  /// "file:line:column" of the line that runs.
+  std::string place() const;
+
+  // What happened.
+  const std::vector<StepRecord>& steps() const { return steps_; }
+  const std::vector<FailedExpectation>& failed() const { return failed_; }
+  const std::vector<MeasureRecord>& measures() const { return measures_; }
+  std::filesystem::path journal_path() const { return journal_path_; }
+  int expectations = 0;
+  int skipped_pictures = 0;
+
+ private:
+  struct Done {
+    State before, after;
+    subdiv::Delta delta;
+  };
+  void trace(const std::string& what);
+  void journal(const std::string& line);
+  void execute(const io::SessionLine& line);
+
+  SessionOptions options_;
+  Document document_;
+  State start_;  // before the command that runs
+  std::vector<Done> done_, undone_;
+  std::vector<StepRecord> steps_;
+  std::vector<FailedExpectation> failed_;
+  std::vector<MeasureRecord> measures_;
+  io::SessionLine current_;
+  std::filesystem::path journal_path_;
+  std::ofstream journal_, trace_;
+  std::size_t lines_ = 0, line_count_ = 0;
+};
+
+}  // namespace argil::sculpt

@@ -1,0 +1,88 @@
+#include "sculpt/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sculpt/measures.h"
+#include "subdiv/error.h"
+
+namespace argil::sculpt {
+
+namespace {
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
+
+}  // namespace
+
+std::string summary_json(const Session& session, const std::string& name, int threads) {
+  using nlohmann::ordered_json;
+  const Document& document = session.document();
+  ordered_json json;
+  json["version"] = ARGIL_VERSION;
+  json["session"] = name;
+  json["state_hash"] = fmt::format("{:016x}", document.state_hash());
+  json["topology_hash"] = fmt::format("{:016x}", document.solid().topology_hash());
+  json["steps"] = session.steps().size();
+  json["space"] = document.state().space == fem::Space::cubic ? "cubic" : "default";
+  json["levels"] = document.state().level;
+  json["model"] = document.state().model;
+  json["control_cells"] = document.solid().cell_count();
+  // A solid that was never simulated, and cannot be, still has counts.
+  try {
+    const fem::Discretization& d = document.discretization();
+    json["cells"] = {{"regular", d.cells.regular},
+                     {"regular_published", d.cells.regular_published},
+                     {"extraordinary", d.cells.extraordinary},
+                     {"irregular", d.cells.irregular}};
+    json["elements"] = {{"cubic", d.elements.cubic}, {"linear", d.elements.linear}, {"pyramid", d.elements.pyramid}};
+    json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
+    for (const char* measured : {"unknowns", "energy", "volume", "mass"}) json[measured] = measure(document, {.name = measured});
+  } catch (const Error& error) {
+    const fem::CellCounts cells = document.empty() ? fem::CellCounts{} : fem::count_cells(document.refinement().solid());
+    json["cells"] = {{"regular", cells.regular},
+                     {"regular_published", cells.regular_published},
+                     {"extraordinary", cells.extraordinary},
+                     {"irregular", cells.irregular}};
+    json["elements"] = {{"cubic", 0}, {"linear", 0}, {"pyramid", 0}};
+    json["not_simulated"] = error.what();
+  }
+  std::vector<double> ms;
+  StepRecord sum;
+  for (const StepRecord& step : session.steps()) {
+    ms.push_back(step.ms);
+    sum.ms += step.ms;
+    sum.ms_forces += step.ms_forces;
+    sum.ms_tangent += step.ms_tangent;
+    sum.ms_solve += step.ms_solve;
+    sum.ms_line_search += step.ms_line_search;
+    sum.linear_iterations += step.linear_iterations;
+    sum.newton_iterations += step.newton_iterations;
+  }
+  const double n = std::max<double>(1, static_cast<double>(ms.size()));
+  json["ms_per_step"] = {{"median", quantile(ms, 0.5)},
+                         {"p99", quantile(ms, 0.99)},
+                         {"mean", sum.ms / n},
+                         {"forces", sum.ms_forces / n},
+                         {"tangent", sum.ms_tangent / n},
+                         {"solve", sum.ms_solve / n},
+                         {"line_search", sum.ms_line_search / n},
+                         {"other", (sum.ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
+  json["solver_iterations"] = sum.linear_iterations;
+  json["newton_iterations"] = sum.newton_iterations;
+  json["threads"] = threads;
+  ordered_json measures = ordered_json::array();
+  for (const MeasureRecord& record : session.measures())
+    measures.push_back({{"name", record.name}, {"value", record.value}, {"line", record.line}});
+  json["measures"] = measures;
+  json["expectations"] = {{"checked", session.expectations}, {"failed", session.failed().size()}};
+  json["skipped_pictures"] = session.skipped_pictures;
+  return json.dump(2);
+}
+
+}  // namespace argil::sculpt

@@ -1,0 +1,18 @@
+# Checks every source and header against .clang-format; run as a test: cmake -DROOT=<source folder> -P format.cmake
+find_program(CLANG_FORMAT clang-format)
+if(NOT CLANG_FORMAT)
+  message(FATAL_ERROR "clang-format was not found; run tools/setup")
+endif()
+set(sources)
+foreach(room subdiv fem io sculpt tools tests benchmarks)
+  file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
+  list(APPEND sources ${found})
+endforeach()
+if(NOT sources)
+  message(FATAL_ERROR "no sources under ${ROOT}")
+endif()
+execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${sources} WORKING_DIRECTORY ${ROOT}
+                RESULT_VARIABLE status ERROR_VARIABLE report)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${report}\nRun clang-format -i on these files.")
+endif()

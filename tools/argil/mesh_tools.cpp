@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "fem/measure/quality.h"
+#include "io/volume_mesh.h"
+#include "sculpt/export.h"
+#include "sculpt/session.h"
+#include "subdiv/boundary.h"
+#include "subdiv/build.h"
+#include "subdiv/error.h"
+#include "subdiv/limit.h"
+#include "subdiv/radial_edge.h"
+#include "subdiv/refinement.h"
+#include "subdiv/solid_measures.h"
+#include "tools/argil/program.h"
+#include "tools/view/offscreen_renderer.h"
+
+namespace argil::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+using namespace subdiv;
+
+Built read_solid(const std::filesystem::path& path) {
+  const io::VolumeMesh mesh = io::read_volume_mesh(path);
+  try {
+    Built built = build(mesh.cells);
+    const auto unused = static_cast<std::size_t>(mesh.cells.positions.cols()) - built.point_from_vertex.size();
+    if (unused > 0) std::fprintf(stderr, "argil: %zu points belong to no cell and were left out\n", unused);
+    return built;
+  } catch (const Error& error) {
+    throw Error(error.code(), error.what(), path.string() + (error.where().empty() ? "" : ": " + error.where()));
+  }
+}
+
+const char* kind_name(std::size_t kind) {
+  static const char* const names[] = {"tetrahedron", "pyramid", "wedge", "hexahedron", "polyhedron"};
+  return names[kind];
+}
+
+void check_count(const Solid& solid, int levels, std::size_t max_cells) {
+  const std::size_t count = refined_cell_count(solid, levels);
+  if (count > max_cells)
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("level {} has {} cells, more than {}; lower --levels or raise --max-cells", levels, count, max_cells));
+}
+
+void print_text(const ordered_json& json, int indent = 0) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      fmt::print("{:{}}{}\n", "", indent, key);
+      print_text(value, indent + 2);
+    } else {
+      fmt::print("{:{}}{:<{}} {}\n", "", indent, key, 24 - indent, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+}
+
+}  // namespace
+
+int info(const std::filesystem::path& path, bool as_json) {
+  const Built built = read_solid(path);
+  const Solid& solid = built.solid;
+  const BoundarySurface surface = boundary_surface(solid);
+  ordered_json json;
+  json["vertices"] = solid.vertex_count();
+  json["edges"] = solid.edge_count();
+  json["faces"] = solid.face_count();
+  json["cells"] = solid.cell_count();
+  json["boundary_faces"] = surface.faces.size();
+  json["components"] = components(solid).count;
+  json["boundary_components"] = surface.component_count;
+  json["boundary_genus"] = surface.genus;
+  const auto kinds = cell_kind_counts(solid);
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    if (kinds[kind] > 0) json["cell_types"][kind_name(kind)] = kinds[kind];
+  json["interior_edge_valences"] = ordered_json::object();
+  for (const auto& [valence, count] : interior_edge_valences(solid))
+    json["interior_edge_valences"][std::to_string(valence)] = count;
+  const auto scaled = min_scaled_jacobian(solid, built.positions);
+  json["min_scaled_jacobian"] = scaled ? ordered_json(scaled->value) : ordered_json(nullptr);
+  const fem::WorstJacobian worst = fem::min_relative_jacobian(solid, built.positions);
+  json["min_jacobian"] = worst.value;
+  json["min_jacobian_cell"] = worst.cell.value;
+  const InvertedCells inverted = inverted_cells(solid, built.positions);
+  json["inverted_cells"] = inverted.count;
+  if (inverted.count > 0) json["first_inverted_cell"] = inverted.first.value;
+  const MassProperties mass = mass_properties(solid, built.positions);
+  json["volume"] = mass.volume;
+  json["centre"] = {mass.centre.x(), mass.centre.y(), mass.centre.z()};
+  json["inertia"] = ordered_json::array();
+  for (Eigen::Index row = 0; row < 3; ++row)
+    json["inertia"].push_back({mass.inertia(row, 0), mass.inertia(row, 1), mass.inertia(row, 2)});
+  if (as_json) fmt::print("{}\n", json.dump(2));
+  else print_text(json);
+  if (worst.value < 0.1)
+    std::fprintf(stderr, "argil: cell %u is badly shaped (relative Jacobian %.3g at a quadrature point, below 0.1)\n",
+                 worst.cell.value, worst.value);
+  return k_well;
+}
+
+int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit, std::size_t max_cells) {
+  Built built = read_solid(in);
+  check_count(built.solid, levels, max_cells);
+  for (int level = 0; level < levels; ++level) {
+    RefinementStep step = subdiv::refine(built.solid);
+    built.positions = apply(step.stencils, built.positions);
+    built.solid = std::move(step.fine);
+  }
+  if (limit) built.positions = apply(limit_stencils(built.solid), built.positions);
+  if (sculpt::is_surface_format(out)) {
+    io::write_surface(out, sculpt::surface_mesh(built.solid, built.positions));
+  } else {
+    io::VolumeMesh mesh;
+    mesh.cells = cell_lists(built.solid, built.positions);
+    built = {};
+    io::write_volume_mesh(out, mesh);
+  }
+  return k_well;
+}
+
+int elements(const std::filesystem::path& path, int levels, const std::string& space, int split, bool as_json,
+             std::size_t max_cells) {
+  const Built built = read_solid(path);
+  check_count(built.solid, levels, max_cells);
+  const Refinement refinement = refine_to_level(built.solid, levels);
+  const auto nodes = static_cast<Eigen::Index>(refinement.solid().vertex_capacity());
+  const fem::NodalFields fields{Eigen::VectorXd::Constant(nodes, 1e5), Eigen::VectorXd::Constant(nodes, 0.3),
+                                Eigen::VectorXd::Constant(nodes, 1000), Eigen::VectorXd::Zero(nodes)};
+  const fem::Discretization d =
+      fem::discretize(refinement, built.positions, fields,
+                      {.space = space == "cubic" ? fem::Space::cubic : fem::Space::standard, .split = split});
+  ordered_json json;
+  json["space"] = space;
+  json["levels"] = levels;
+  json["cells"] = {{"regular", d.cells.regular},
+                   {"regular_published", d.cells.regular_published},
+                   {"extraordinary", d.cells.extraordinary},
+                   {"irregular", d.cells.irregular}};
+  json["elements"] = {{"cubic", d.elements.cubic}, {"linear", d.elements.linear}, {"pyramid", d.elements.pyramid}};
+  json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
+  json["unknowns"] = 3 * built.solid.vertex_count();
+  json["volume"] = d.rest_volume;
+  if (as_json) fmt::print("{}\n", json.dump(2));
+  else print_text(json);
+  return k_well;
+}
+
+int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
+  io::VolumeMesh mesh = io::read_volume_mesh(in);
+  if (sculpt::is_surface_format(out)) {
+    const Built built = read_solid(in);
+    io::write_surface(out, sculpt::surface_mesh(built.solid, built.positions));
+    return k_well;
+  }
+  if (out.extension() == ".mesh") {
+    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields})
+      for (const io::NamedField& field : *fields)
+        std::fprintf(stderr, "argil: MEDIT has no place for the field '%s'; it is left out\n", field.name.c_str());
+    mesh.point_fields.clear();
+    mesh.cell_fields.clear();
+  }
+  io::write_volume_mesh(out, mesh);
+  return k_well;
+}
+
+int render(const RenderArguments& arguments) {
+  const auto renderer = view::make_offscreen_renderer();
+  sculpt::SessionOptions options;
+  options.read_root = arguments.mesh.parent_path();
+  options.out = arguments.out.parent_path().empty() ? "." : arguments.out.parent_path();
+  options.write_journal = false;
+  options.renderer = renderer.get();
+  options.print = [](const std::string& message) { std::fprintf(stderr, "argil: %s\n", message.c_str()); };
+  sculpt::Session session(options);
+  session.run_line("open " + io::quote(arguments.mesh.filename().string()));
+  if (arguments.levels > 0) session.run_line(fmt::format("levels {}", arguments.levels));
+  session.run_line("render " + io::quote(arguments.out.filename().string()) + " " + arguments.options);
+  return k_well;
+}
+
+int help(const std::string& command) {
+  if (command.empty()) {
+    fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}", sculpt::command_overview());
+    return k_well;
+  }
+  const auto line = io::parse_session_line(command, "command", 1);
+  if (line.tokens.empty()) throw Error(ErrorCode::bad_input, "help wants the name of a command");
+  fmt::print("{}", sculpt::help_text(sculpt::find_command(line)));
+  return k_well;
+}
+
+}  // namespace argil::tools

@@ -1,0 +1,42 @@
+#pragma once
+// The subcommands of the program, one source file each. They throw argil::Error for what a user can mend; main() turns
+// that into a message and an exit status (SESSION.md): 0 all well, 1 an expectation failed, 2 bad input, 3 our own bug.
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "sculpt/document.h"
+
+namespace argil::tools {
+
+inline constexpr int k_well = 0, k_expectation_failed = 1, k_bad_input = 2, k_own_bug = 3;
+
+struct ReplayArguments {
+  std::filesystem::path session, out, hash_trace;
+  int threads = 0;  // 0: all
+  long until = -1;
+  std::vector<std::string> overrides;  // "space=cubic"
+  sculpt::Limits limits;
+  bool json = false, quiet = false, pictures = true;
+};
+int replay(const ReplayArguments& arguments);
+
+int diff(const std::filesystem::path& a, const std::filesystem::path& b, bool json);
+
+int info(const std::filesystem::path& mesh, bool json);
+int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit, std::size_t max_cells);
+int elements(const std::filesystem::path& mesh, int levels, const std::string& space, int split, bool json,
+             std::size_t max_cells);
+int convert(const std::filesystem::path& in, const std::filesystem::path& out);
+
+struct RenderArguments {
+  std::filesystem::path mesh, out;
+  int levels = 0;
+  std::string options;  // of the session command `render`
+};
+int render(const RenderArguments& arguments);
+
+int help(const std::string& command);
+
+}  // namespace argil::tools

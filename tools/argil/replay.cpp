@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "sculpt/session.h"
+#include "sculpt/summary.h"
+#include "subdiv/error.h"
+#include "tools/argil/program.h"
+#include "tools/view/offscreen_renderer.h"
+
+namespace argil::tools {
+
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(ErrorCode::not_found, fmt::format("the session '{}' cannot be read; check its name", path.string()));
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(path, failure);
+  if (failure || size > io::k_max_session_file)
+    throw Error(ErrorCode::limit_exceeded, fmt::format("the session '{}' is not a text file of at most {} MiB", path.string(),
+                                                       io::k_max_session_file >> 20));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A bar that is redrawn in a terminal, and a line every tenth elsewhere. Messages go above it.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stderr)) != 0) {}
+  void message(const std::string& text) {
+    if (quiet_) return;
+    clear();
+    std::fprintf(stderr, "  %s\n", text.c_str());
+  }
+  void update(double fraction, const std::string& what) {
+    if (quiet_) return;
+    if (!terminal_) {
+      const int tenth = static_cast<int>(fraction * 10 + 1e-9);
+      if (tenth > last_tenth_) std::fprintf(stderr, "%3d %%  %s\n", 10 * tenth, what.c_str());
+      last_tenth_ = std::max(last_tenth_, tenth);
+      return;
+    }
+    const double now = seconds();
+    if (now - last_drawn_ < 0.05 && fraction < 1) return;
+    last_drawn_ = now;
+    const int width = 30, filled = static_cast<int>(fraction * width);
+    std::string bar;
+    for (int i = 0; i < width; ++i) bar += i < filled ? "█" : "░";
+    std::fprintf(stderr, "\r\x1b[2K%s %3.0f %%  %.60s", bar.c_str(), 100 * fraction, what.c_str());
+    drawn_ = true;
+  }
+  void clear() {
+    if (drawn_) std::fprintf(stderr, "\r\x1b[2K");
+    drawn_ = false;
+  }
+
+ private:
+  bool quiet_, terminal_, drawn_ = false;
+  int last_tenth_ = -1;
+  double last_drawn_ = 0;
+};
+
+std::map<std::string, std::string> parsed_overrides(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> overrides;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorCode::bad_input, fmt::format("--set wants COMMAND=ARGUMENTS, as in --set space=cubic; found '{}'", text));
+    overrides[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return overrides;
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments) {
+  const std::string text = read_text(arguments.session);
+  const int threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  ProgressBar bar(arguments.quiet);
+  std::unique_ptr<sculpt::Renderer> renderer;
+  if (arguments.pictures) renderer = view::make_offscreen_renderer();
+
+  sculpt::SessionOptions options;
+  options.read_root = arguments.session.parent_path();
+  options.out = arguments.out.empty() ? std::filesystem::path("out") / arguments.session.stem() : arguments.out;
+  options.hash_trace = arguments.hash_trace;
+  options.overrides = parsed_overrides(arguments.overrides);
+  options.until_step = arguments.until;
+  options.limits = arguments.limits;
+  options.renderer = renderer.get();
+  options.clock = seconds;
+  options.print = [&](const std::string& message) { bar.message(message); };
+  options.progress = [&](double fraction, const std::string& what) { bar.update(fraction, what); };
+
+  sculpt::Session session(options);
+  try {
+    session.run_text(text, arguments.session.string());
+  } catch (const Error&) {
+    bar.clear();
+    throw;
+  } catch (const std::exception&) {
+    bar.clear();
+    std::fprintf(stderr, "argil: the journal up to here is in %s\n", session.journal_path().string().c_str());
+    throw;
+  }
+  bar.clear();
+  const std::string summary = sculpt::summary_json(session, arguments.session.stem().string(), threads);
+  std::ofstream(options.out / "summary.json") << summary << '\n';
+  if (arguments.json) std::printf("%s\n", summary.c_str());
+  for (const sculpt::FailedExpectation& failed : session.failed())
+    std::fprintf(stderr, "%s: %s\n", failed.where.c_str(), failed.message.c_str());
+  if (!arguments.quiet && !arguments.json)
+    std::printf("%zu steps, %d of %d expectations held, state %016llx; results in %s\n", session.steps().size(),
+                session.expectations - static_cast<int>(session.failed().size()), session.expectations,
+                static_cast<unsigned long long>(session.document().state_hash()), options.out.string().c_str());
+  return session.failed().empty() ? k_well : k_expectation_failed;
+}
+
+}  // namespace argil::tools

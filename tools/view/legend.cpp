@@ -1,0 +1,115 @@
+#include "tools/view/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "sculpt/scene.h"
+
+namespace argil::view {
+
+namespace {
+
+constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
+constexpr float k_bar_height = 250;
+constexpr int k_most_ticks = 6;
+
+/// The unit as written and how many of it one of the legend's is.
+struct Shown {
+  double per_value = 1;
+  std::string unit;
+};
+
+Shown shown_unit(const sculpt::SceneLegend& legend) {
+  if (legend.unit == "%") return {100, "%"};
+  constexpr std::array<std::string_view, 8> takes_prefix{"Pa", "N", "J", "m", "s", "W", "N/m", "m/s"};
+  const double largest = std::max(std::abs(legend.low), std::abs(legend.high));
+  if (largest == 0 || std::find(takes_prefix.begin(), takes_prefix.end(), legend.unit) == takes_prefix.end())
+    return {1, legend.unit};
+  constexpr std::array<const char*, 9> prefixes{"p", "n", "µ", "m", "", "k", "M", "G", "T"};
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest * 1.0000001) / 3)), -4, 4);
+  return {std::pow(1000.0, -thousands), prefixes[static_cast<std::size_t>(thousands + 4)] + legend.unit};
+}
+
+/// With a true minus sign, and as many decimals as the step needs.
+std::string written(double value, double step) {
+  if (std::abs(value) < 1e-9 * step) return "0";
+  const double largest = std::max(std::abs(value), step);
+  std::string text;
+  if (largest >= 1e6 || largest < 1e-4)
+    text = fmt::format("{:.3g}", value);
+  else
+    text = fmt::format("{:.{}f}", value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12));
+  if (text.front() == '-') text.replace(0, 1, "−");
+  return text;
+}
+
+float bar_height(float pixel, int height) {
+  return std::min(k_bar_height * pixel, 0.55F * static_cast<float>(height));
+}
+
+}  // namespace
+
+std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
+  const Shown shown = shown_unit(legend);
+  const double low = legend.low * shown.per_value, high = legend.high * shown.per_value;
+  const std::string suffix = shown.unit.empty() ? "" : " " + shown.unit;
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) {
+    const double size = std::abs(high) > 0 ? std::pow(10.0, std::floor(std::log10(std::abs(high))) - 2) : 1.0;
+    return {{legend.high, written(high, size) + suffix}};
+  }
+  const double step = sculpt::round_step(high - low, most);
+  std::vector<Tick> ticks;
+  for (double i = std::ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; ++i)
+    ticks.push_back({i * step / shown.per_value, written(i * step, step)});
+  if (ticks.empty()) ticks.push_back({legend.high, written(high, step)});
+  ticks.back().text += suffix;
+  return ticks;
+}
+
+double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width) {
+  float text = 0;
+  for (const Tick& tick : legend_ticks(legend, k_most_ticks)) text = std::max(text, font.width(tick.text, k_tick_size * pixel));
+  const float beside = text + (k_right + k_bar_width + k_gap + 20) * pixel;
+  return static_cast<double>(beside) / width;
+}
+
+void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme& theme, float pixel, int width,
+                 int height) {
+  const float tall = bar_height(pixel, height), bar_width = k_bar_width * pixel;
+  const float top = std::round(k_top * pixel);
+  const float right = std::round(static_cast<float>(width) - k_right * pixel), left = std::round(right - bar_width);
+  canvas.bar(left, top, right - left, tall, 3 * pixel, [](float y) { return viridis(1 - y); });
+  canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
+
+  const int most = std::max(1, static_cast<int>(tall / (34 * pixel)));
+  const double range = legend.high - legend.low;
+  for (const Tick& tick : legend_ticks(legend, std::min(most, k_most_ticks))) {
+    const double part = range > 0 ? (tick.value - legend.low) / range : 0.5;
+    const float y = top + tall * static_cast<float>(1 - part);
+    canvas.text(left - k_gap * pixel, y + 0.36F * k_tick_size * pixel, k_tick_size * pixel, tick.text,
+                theme.quiet_text, Align::right);
+    if (part > 0.01 && part < 0.99)
+      canvas.bar(left, y - 0.5F * pixel, 5 * pixel, pixel, 0, [](float) { return colour(0xFFFFFF, 0.45F); });
+  }
+}
+
+void draw_label(Canvas& canvas, const Eigen::Vector2f& at, const std::string& line, const Theme& theme, float pixel,
+                int width, bool hidden) {
+  const float size = 12.5F * pixel;
+  Colour ink = theme.text, halo = theme.halo;
+  if (hidden) {
+    ink.alpha *= 0.35F;
+    halo.alpha *= 0.25F;
+  }
+  canvas.disc(at.x(), at.y(), 3.4F * pixel, halo);
+  canvas.disc(at.x(), at.y(), 2.2F * pixel, ink);
+  const bool to_the_left = at.x() + 8 * pixel + canvas.font().width(line, size) > static_cast<float>(width) - 4 * pixel;
+  canvas.text(at.x() + (to_the_left ? -7 : 7) * pixel, at.y() - 4 * pixel, size, line, ink,
+              to_the_left ? Align::right : Align::left, halo);
+}
+
+}  // namespace argil::view

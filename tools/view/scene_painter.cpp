@@ -1,0 +1,261 @@
+#include "tools/view/scene_painter.h"
+
+#include "tools/view/arrow_mesh.h"
+#include "tools/view/openness.h"
+#include "tools/view/shaders.h"
+
+namespace argil::view {
+
+namespace {
+
+constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
+constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
+constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
+constexpr float k_hidden_pin = 0.55F;
+
+using Line = std::array<Eigen::Vector3f, 2>;
+
+void set_colour(const Gl& gl, GLint place, const Colour& c) {
+  gl.Uniform4f(place, c.red, c.green, c.blue, c.alpha);
+}
+
+}  // namespace
+
+ScenePainter::ScenePainter(const Gl& gl)
+    : gl_(&gl),
+      background_program_(gl, shaders::k_whole_vertex, shaders::k_background_fragment),
+      surface_program_(gl, shaders::k_surface_vertex, shaders::k_surface_fragment),
+      id_program_(gl, shaders::k_surface_vertex, shaders::k_id_fragment),
+      depth_program_(gl, shaders::k_surface_vertex, shaders::k_depth_fragment),
+      line_program_(gl, shaders::k_line_vertex, shaders::k_line_fragment),
+      mark_program_(gl, shaders::k_mark_vertex, shaders::k_mark_fragment),
+      arrow_program_(gl, shaders::k_arrow_vertex, shaders::k_arrow_fragment),
+      shadow_(gl),
+      nothing_(gl),
+      surface_(gl),
+      wire_(gl),
+      cage_lines_(gl),
+      cage_points_(gl),
+      pins_(gl),
+      arrows_(gl) {
+  nothing_.set(std::vector<float>(4, 0.0F), std::array<Attribute, 1>{{{0, 1}}});
+}
+
+void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options) {
+  theme_ = options.light_theme ? &k_light_theme : &k_dark_theme;
+  draws_surface_ = scene.draw_surface;
+  draws_wire_ = options.wireframe;
+  field_.reset();
+  if (!scene.surface.values.empty()) field_ = scene.legend;
+
+  std::vector<Eigen::Vector3f> positions;
+  for (const Eigen::Vector3f& position : scene.surface.positions) positions.push_back(place(position));
+  SurfaceMesh mesh = surface_mesh(scene.surface, positions);
+  if (draws_surface_) measure_openness(*gl_, depth_program_, mesh);
+  surface_.set(mesh.vertices, k_surface_attributes, 0, mesh.triangles);
+  has_shadow_ = options.contact_shadow && draws_surface_ && !mesh.triangles.empty();
+  if (has_shadow_) shadow_.prepare(mesh, surface_);
+  draws_surface_ = draws_surface_ && !mesh.triangles.empty();
+
+  std::vector<Line> lines;
+  for (const auto& ends : scene.surface.wire) lines.push_back({positions[ends[0]], positions[ends[1]]});
+  wire_.set(lines, k_line_attributes, 1);
+  lines.clear();
+  for (const auto& ends : scene.cage_lines) lines.push_back({place(ends[0]), place(ends[1])});
+  cage_lines_.set(lines, k_line_attributes, 1);
+
+  const auto placed = [&](const std::vector<Eigen::Vector3f>& all) {
+    std::vector<Eigen::Vector3f> result;
+    for (const Eigen::Vector3f& position : all) result.push_back(place(position));
+    return result;
+  };
+  cage_points_.set(placed(scene.cage_points), k_mark_attributes, 1);
+  pins_.set(placed(scene.pins), k_mark_attributes, 1);
+  arrow_ends_.clear();
+  for (const sculpt::SceneArrow& arrow : scene.arrows) arrow_ends_.push_back({place(arrow.from), place(arrow.to)});
+}
+
+void ScenePainter::hide_behind_surface(bool hide) const {
+  if (hide)
+    gl_->Enable(GL_DEPTH_TEST);
+  else
+    gl_->Disable(GL_DEPTH_TEST);
+}
+
+void ScenePainter::draw_surface(const Program& program, const Camera& camera) const {
+  const Gl& gl = *gl_;
+  program.use();
+  gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
+  gl.UniformMatrix3fv(program.at("view_from_world"), 1, GL_FALSE, camera.view_from_world.data());
+  gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
+  surface_.bind();
+  gl.DrawElements(GL_TRIANGLES, surface_.count(), GL_UNSIGNED_INT, nullptr);
+}
+
+void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
+                              float half_width, const Colour& tint, bool fades_when_dense) const {
+  if (lines.count() == 0) return;
+  const Gl& gl = *gl_;
+  const Program& program = line_program_;
+  const auto factor = static_cast<float>(sampling.factor);
+  const float scale = factor * sampling.pixel;
+  program.use();
+  gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
+  gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
+  gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
+               0.5F * factor * static_cast<float>(sampling.height));
+  gl.Uniform1f(program.at("half_width"), half_width * scale);
+  if (fades_when_dense)
+    gl.Uniform2f(program.at("visible_length"), 1.5F * scale, 22 * scale);
+  else
+    gl.Uniform2f(program.at("visible_length"), -2, -1);
+  gl.Uniform3f(program.at("distances"), camera.nearest, camera.farthest, 0.35F);
+  set_colour(gl, program.at("tint"), tint);
+  lines.bind();
+  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, lines.count());
+}
+
+void ScenePainter::draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape,
+                              float radius, const Colour& tint, const Colour& ring, float opacity) const {
+  if (marks.count() == 0) return;
+  const Gl& gl = *gl_;
+  const Program& program = mark_program_;
+  const auto factor = static_cast<float>(sampling.factor);
+  const float scale = factor * sampling.pixel;
+  program.use();
+  gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
+  gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
+  gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
+               0.5F * factor * static_cast<float>(sampling.height));
+  gl.Uniform1f(program.at("radius"), radius * scale);
+  gl.Uniform1f(program.at("outline"), 1.3F * scale);
+  gl.Uniform1f(program.at("forward"), 0.015F);
+  gl.Uniform1f(program.at("opacity"), opacity);
+  gl.Uniform1i(program.at("shape"), shape);
+  set_colour(gl, program.at("tint"), tint);
+  set_colour(gl, program.at("ring"), ring);
+  marks.bind();
+  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, marks.count());
+}
+
+void ScenePainter::draw_arrows(const Camera& camera, const Sampling& sampling) const {
+  if (arrow_ends_.empty()) return;
+  const Gl& gl = *gl_;
+  const Program& program = arrow_program_;
+  const float pixel = camera.pixel_at_unit_distance * sampling.pixel;
+  std::vector<ArrowVertex> triangles;
+  for (const sculpt::SceneArrow& arrow : arrow_ends_) add_arrow(triangles, arrow.from, arrow.to, camera, pixel);
+  arrows_.set(triangles, k_line_attributes);
+  program.use();
+  gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
+  gl.UniformMatrix3fv(program.at("view_from_world"), 1, GL_FALSE, camera.view_from_world.data());
+  arrows_.bind();
+  const auto draw = [&](const Colour& tint, float grow, float shading, float opacity) {
+    set_colour(gl, program.at("tint"), {tint.red, tint.green, tint.blue, tint.alpha * opacity});
+    gl.Uniform1f(program.at("grow"), grow * pixel);
+    gl.Uniform1f(program.at("shading"), shading);
+    gl.DrawArrays(GL_TRIANGLES, 0, arrows_.count());
+  };
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_CULL_FACE);
+  gl.CullFace(GL_BACK);
+  gl.DepthFunc(GL_GREATER);
+  gl.DepthMask(GL_FALSE);
+  draw(theme_->arrow, 0, 0, k_hidden);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.DepthMask(GL_TRUE);
+  gl.CullFace(GL_FRONT);
+  draw(theme_->arrow_outline, 1.1F, 0, 1);
+  gl.CullFace(GL_BACK);
+  draw(theme_->arrow, 0, 1, 1);
+  gl.Disable(GL_CULL_FACE);
+  gl.DepthMask(GL_FALSE);
+}
+
+void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, int y) const {
+  const Gl& gl = *gl_;
+  const Theme& theme = *theme_;
+  gl.Viewport(-x, -y, sampling.width * sampling.factor, sampling.height * sampling.factor);
+  gl.DepthMask(GL_TRUE);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_DEPTH_TEST);
+  background_program_.use();
+  gl.Uniform3f(background_program_.at("top"), theme.background_top.red, theme.background_top.green,
+               theme.background_top.blue);
+  gl.Uniform3f(background_program_.at("bottom"), theme.background_bottom.red, theme.background_bottom.green,
+               theme.background_bottom.blue);
+  gl.Uniform2f(background_program_.at("tile_origin"), static_cast<float>(x), static_cast<float>(y));
+  gl.Uniform1f(background_program_.at("sampling"), static_cast<float>(sampling.factor));
+  gl.Uniform1f(background_program_.at("picture_height"), static_cast<float>(sampling.height));
+  nothing_.bind();
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  if (has_shadow_) shadow_.paint(camera, theme.shadow);
+
+  gl.DepthFunc(GL_LEQUAL);
+  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  if (draws_surface_) {
+    hide_behind_surface(true);
+    gl.Enable(GL_POLYGON_OFFSET_FILL);
+    gl.PolygonOffset(1, 2);
+    surface_program_.use();
+    gl.Uniform1i(surface_program_.at("has_field"), field_ ? 1 : 0);
+    if (field_)
+      gl.Uniform2f(surface_program_.at("value_range"), static_cast<float>(field_->low),
+                   static_cast<float>(field_->high));
+    for (int i = 0; i < k_viridis_size; ++i) {
+      const auto& c = k_viridis[static_cast<std::size_t>(i)];
+      const std::string name = "field_colours[" + std::to_string(i) + "]";
+      gl.Uniform3f(surface_program_.at(name.c_str()), c[0], c[1], c[2]);
+    }
+    draw_surface(surface_program_, camera);
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+  }
+
+  gl.Enable(GL_BLEND);
+  gl.DepthMask(GL_FALSE);
+  hide_behind_surface(draws_surface_);
+  if (draws_wire_)
+    draw_lines(wire_, camera, sampling, 0.5F,
+               !draws_surface_ ? theme.wire_alone
+               : field_        ? theme.wire_on_field
+                               : theme.wire_on_clay,
+               true);
+
+  Colour hidden_cage = theme.cage;
+  hidden_cage.alpha *= k_hidden;
+  hide_behind_surface(false);
+  draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, false);
+  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
+  hide_behind_surface(true);
+  draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, false);
+  draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
+  draw_arrows(camera, sampling);
+  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+}
+
+void ScenePainter::paint_ids(const Camera& camera, const Sampling& sampling, int x, int y) const {
+  paint_bytes(id_program_, camera, sampling, x, y);
+}
+
+void ScenePainter::paint_depth(const Camera& camera, const Sampling& sampling, int x, int y) const {
+  paint_bytes(depth_program_, camera, sampling, x, y);
+}
+
+void ScenePainter::paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x,
+                               int y) const {
+  const Gl& gl = *gl_;
+  gl.Viewport(-x, -y, sampling.width, sampling.height);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Disable(GL_BLEND);
+  gl.ClearColor(1, 1, 1, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (!draws_surface_) return;
+  gl.Enable(GL_DEPTH_TEST);
+  draw_surface(program, camera);
+}
+
+}  // namespace argil::view

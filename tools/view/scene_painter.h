@@ -1,0 +1,55 @@
+#pragma once
+// Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn in
+// tiles and at several samples a pixel.
+
+#include <optional>
+
+#include "tools/view/colour.h"
+#include "tools/view/ground_shadow.h"
+
+namespace argil::view {
+
+/// How fine the picture is drawn.
+struct Sampling {
+  int width = 0, height = 0;  // of the picture [pixels]
+  int factor = 1;             // samples a pixel along each axis
+  float pixel = 1;            // lines and marks are as many pixels wide as at 1280 x 800 times this
+};
+
+class ScenePainter {
+ public:
+  /// `gl` must outlive the painter, its context being current whenever a function is called.
+  explicit ScenePainter(const Gl& gl);
+
+  /// Takes a scene in picture coordinates to the graphics card. Binds other targets.
+  void load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options);
+  /// Draws the part of the picture whose lower left sample is (x, y) into the bound target.
+  void paint(const Camera& camera, const Sampling& sampling, int x, int y) const;
+  /// The same part with the surface's cell ids as bytes, 255 where nothing is; no antialiasing, factor 1.
+  void paint_ids(const Camera& camera, const Sampling& sampling, int x, int y) const;
+  /// The same part with the surface's depth as three bytes, lowest first; 255 where nothing is.
+  void paint_depth(const Camera& camera, const Sampling& sampling, int x, int y) const;
+
+ private:
+  void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
+  void draw_surface(const Program& program, const Camera& camera) const;
+  void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
+                  const Colour& tint, bool fades_when_dense) const;
+  void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
+                  const Colour& tint, const Colour& ring, float opacity) const;
+  void draw_arrows(const Camera& camera, const Sampling& sampling) const;
+  void hide_behind_surface(bool hide) const;
+
+  const Gl* gl_;
+  Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
+      arrow_program_;
+  GroundShadow shadow_;
+  VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, pins_;
+  mutable VertexArray arrows_;  // their thickness depends on the camera
+  std::vector<sculpt::SceneArrow> arrow_ends_;
+  std::optional<sculpt::SceneLegend> field_;
+  bool has_shadow_ = false, draws_surface_ = true, draws_wire_ = true;
+  const Theme* theme_ = &k_dark_theme;
+};
+
+}  // namespace argil::view

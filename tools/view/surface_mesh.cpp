@@ -1,0 +1,143 @@
+#include "tools/view/surface_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace argil::view {
+
+namespace {
+
+constexpr std::uint32_t k_none = 0xffffffffU;
+
+/// Sets of corners that share a normal.
+class CornerSets {
+ public:
+  explicit CornerSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t corner) {
+    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
+    return corner;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+struct FaceEdge {
+  std::array<std::uint32_t, 2> ends;   // surface vertices, ascending
+  std::array<std::uint32_t, 2> corner;  // the face's corners at them
+  std::uint32_t face;
+};
+
+bool is_cut(const sculpt::SceneSurface& surface, std::uint32_t face) {
+  return !surface.cut_faces.empty() && surface.cut_faces[face] != 0;
+}
+
+std::vector<FaceEdge> face_edges(const sculpt::SceneSurface& surface) {
+  std::vector<FaceEdge> edges;
+  edges.reserve(surface.corners.size());
+  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
+    const auto first = static_cast<std::uint32_t>(surface.offsets[face]);
+    const auto end = static_cast<std::uint32_t>(surface.offsets[face + 1]);
+    for (std::uint32_t c = first; c < end; ++c) {
+      const std::uint32_t next = c + 1 < end ? c + 1 : first;
+      const std::uint32_t a = surface.corners[c], b = surface.corners[next];
+      edges.push_back(a < b ? FaceEdge{{a, b}, {c, next}, face} : FaceEdge{{b, a}, {next, c}, face});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.corner < b.corner;
+  });
+  return edges;
+}
+
+CornerSets join_corners(const sculpt::SceneSurface& surface) {
+  auto sharp = surface.sharp_edges;
+  for (auto& ends : sharp)
+    if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
+  std::sort(sharp.begin(), sharp.end());
+
+  CornerSets sets(surface.corners.size());
+  const std::vector<FaceEdge> edges = face_edges(surface);
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
+    if (end - i != 2 || is_cut(surface, edges[i].face) != is_cut(surface, edges[i + 1].face)) continue;
+    if (std::binary_search(sharp.begin(), sharp.end(), edges[i].ends)) continue;
+    for (const int k : {0, 1}) sets.unite(edges[i].corner[k], edges[i + 1].corner[k]);
+  }
+  return sets;
+}
+
+Eigen::Vector3f normalised(const Eigen::Vector3f& v) {
+  const float length = v.norm();
+  if (!(length > 0)) return Eigen::Vector3f::UnitZ();
+  return v / length;
+}
+
+/// Normal at corner b of a loop, as long as its angle.
+Eigen::Vector3f corner_normal(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+  const Eigen::Vector3f u = c - b, v = a - b, cross = u.cross(v);
+  const float length = cross.norm();
+  if (!(length > 0)) return Eigen::Vector3f::Zero();
+  return std::atan2(length, u.dot(v)) / length * cross;
+}
+
+}  // namespace
+
+SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions) {
+  assert(positions.size() == surface.positions.size());
+  assert(surface.cell_from_face.size() + 1 == surface.offsets.size());
+  SurfaceMesh mesh;
+  CornerSets sets = join_corners(surface);
+  std::vector<std::uint32_t> vertex_from_root(surface.corners.size(), k_none);
+  const auto vertex_of = [&](std::uint32_t corner) -> std::uint32_t {
+    std::uint32_t& vertex = vertex_from_root[sets.root(corner)];
+    if (vertex == k_none) {
+      vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+      const std::uint32_t v = surface.corners[corner];
+      mesh.vertices.push_back({positions[v], Eigen::Vector3f::Zero()});
+      if (!surface.values.empty()) mesh.vertices.back().value = surface.values[v];
+    }
+    return vertex;
+  };
+
+  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
+    const std::size_t first = surface.offsets[face], size = surface.offsets[face + 1] - first;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto at = [&](std::size_t k) { return positions[surface.corners[first + k % size]]; };
+      mesh.vertices[vertex_of(static_cast<std::uint32_t>(first + i))].normal +=
+          corner_normal(at(i + size - 1), at(i), at(i + 1));
+    }
+  }
+  for (SurfaceVertex& vertex : mesh.vertices) vertex.normal = normalised(vertex.normal);
+
+  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
+    const auto first = static_cast<std::uint32_t>(surface.offsets[face]);
+    const auto size = static_cast<std::uint32_t>(surface.offsets[face + 1]) - first;
+    if (size < 3) continue;
+    SurfaceVertex middle{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+    const auto middle_index = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t a = vertex_of(first + i), b = vertex_of(first + (i + 1) % size);
+      const SurfaceVertex& corner = mesh.vertices[a];
+      middle.position += corner.position / static_cast<float>(size);
+      middle.normal += corner.normal;
+      middle.value += corner.value / static_cast<float>(size);
+      for (const std::uint32_t v : {a, b, middle_index}) mesh.triangles.push_back(v);
+    }
+    middle.normal = normalised(middle.normal);
+    middle.cell = surface.cell_from_face[face];
+    middle.cut = is_cut(surface, face) ? 1 : 0;
+    mesh.vertices.push_back(middle);
+  }
+  return mesh;
+}
+
+}  // namespace argil::view
