@@ -94,10 +94,14 @@ class SurfaceBuilder {
   }
 
   std::uint32_t corner_of(FaceId face, std::size_t begin, std::size_t end) const {
-    for (std::size_t i = begin; i < end; ++i)
-      if (face_of(surface_.faces[face_from_corner_[at_edges_[i].corner]]) == face) return at_edges_[i].corner;
-    assert(false && "a fan ends in a face that is not boundary");
-    return 0;
+    // Corners ascend at an edge, and faces with them.
+    const auto first = at_edges_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = at_edges_.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto at = std::partition_point(first, last, [&](const EdgeCorner& e) {
+      return face_of(surface_.faces[face_from_corner_[e.corner]]) < face;
+    });
+    assert(at != last && "a fan ends in a face that is not boundary");
+    return at->corner;
   }
 
   void number_vertices(Sets& corner_sets) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "subdiv/build.h"
 #include "subdiv/radial_edge.h"
@@ -10,15 +11,23 @@ namespace argil::subdiv {
 
 namespace {
 
-// The loop of the use of `cell` that runs from `a` to `b`, rotated to begin with them.
-std::vector<VertexId> loop_along(const Solid& solid, CellId cell, VertexId a, VertexId b) {
+// The loop of a face-use from a corner of it on; nothing is copied, since a fine level has millions of them.
+struct LoopView {
+  std::span<const VertexId> stored;
+  bool back = false;
+  std::size_t start = 0;
+  VertexId operator[](std::size_t i) const {
+    const std::size_t n = stored.size(), j = (start + i) % n;
+    return stored[back ? n - 1 - j : j];
+  }
+};
+
+// The loop of the use of `cell` that runs from `a` to `b`, beginning with them.
+LoopView loop_along(const Solid& solid, CellId cell, VertexId a, VertexId b) {
   for (const FaceUseId use : solid.cell_face_uses(cell)) {
-    std::vector<VertexId> loop = use_vertices(solid, use);
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (loop[i] == a && loop[(i + 1) % loop.size()] == b) {
-        std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
-        return loop;
-      }
+    LoopView loop{solid.face_vertices(face_of(use)), is_back(use), 0};
+    for (; loop.start < loop.stored.size(); ++loop.start)
+      if (loop[0] == a && loop[1] == b) return loop;
   }
   assert(false && "the cell does not have this edge");
   return {};
@@ -32,12 +41,14 @@ struct Count {
 // Vertices of the cell, ascending, with the number of its corners at each.
 std::vector<Count> corner_counts(const Solid& solid, CellId cell) {
   std::vector<VertexId> corners;
+  corners.reserve(32);
   for (const FaceUseId use : solid.cell_face_uses(cell)) {
     const auto loop = solid.face_vertices(face_of(use));
     corners.insert(corners.end(), loop.begin(), loop.end());
   }
   std::sort(corners.begin(), corners.end());
   std::vector<Count> counts;
+  counts.reserve(8);
   for (const VertexId v : corners) {
     if (counts.empty() || counts.back().vertex != v) counts.push_back({v, 0});
     ++counts.back().corners;
@@ -45,8 +56,15 @@ std::vector<Count> corner_counts(const Solid& solid, CellId cell) {
   return counts;
 }
 
-VertexId lowest_neighbour(const Solid& solid, CellId cell, VertexId v) {
+VertexId lowest_vertex(const Solid& solid, CellId cell) {
   VertexId lowest;  // an invalid id is above all others
+  for (const FaceUseId use : solid.cell_face_uses(cell))
+    for (const VertexId v : solid.face_vertices(face_of(use))) lowest = std::min(lowest, v);
+  return lowest;
+}
+
+VertexId lowest_neighbour(const Solid& solid, CellId cell, VertexId v) {
+  VertexId lowest;
   for (const FaceUseId use : solid.cell_face_uses(cell)) {
     const auto loop = solid.face_vertices(face_of(use));
     const std::size_t n = loop.size();
@@ -85,11 +103,12 @@ CellKind cell_kind(const Solid& solid, CellId cell) {
   return CellKind::polyhedron;
 }
 
-std::vector<VertexId> vtk_vertices(const Solid& solid, CellId cell) {
-  const CellKind kind = cell_kind(solid, cell);
+namespace {
+
+std::vector<VertexId> vtk_vertices_of_kind(const Solid& solid, CellId cell, CellKind kind) {
   assert(kind != CellKind::polyhedron);
   if (kind == CellKind::tetrahedron || kind == CellKind::hexahedron) {
-    const VertexId v0 = corner_counts(solid, cell).front().vertex;
+    const VertexId v0 = lowest_vertex(solid, cell);
     const VertexId v1 = lowest_neighbour(solid, cell, v0);
     const auto below = loop_along(solid, cell, v1, v0), beside = loop_along(solid, cell, v0, v1);
     if (kind == CellKind::tetrahedron) return {v0, v1, below[2], beside[2]};
@@ -115,6 +134,12 @@ std::vector<VertexId> vtk_vertices(const Solid& solid, CellId cell) {
   return {base[0], base[1], base[2], side[2], side[3], other[3]};
 }
 
+}  // namespace
+
+std::vector<VertexId> vtk_vertices(const Solid& solid, CellId cell) {
+  return vtk_vertices_of_kind(solid, cell, cell_kind(solid, cell));
+}
+
 CellLists cell_lists(const Solid& solid, const Eigen::Matrix3Xd& positions) {
   CellLists lists;
   lists.positions.resize(3, static_cast<Eigen::Index>(solid.vertex_count()));
@@ -135,7 +160,8 @@ CellLists cell_lists(const Solid& solid, const Eigen::Matrix3Xd& positions) {
         for (const VertexId v : loop) lists.connectivity.push_back(point_from_vertex[v]);
       }
     } else {
-      for (const VertexId v : vtk_vertices(solid, c)) lists.connectivity.push_back(point_from_vertex[v]);
+      for (const VertexId v : vtk_vertices_of_kind(solid, c, kind))
+        lists.connectivity.push_back(point_from_vertex[v]);
     }
     lists.kinds.push_back(kind);
     lists.offsets.push_back(lists.connectivity.size());
