@@ -74,9 +74,7 @@ class Reader {
     }
     cursor_.finish();
     if (mesh_.cells.kinds.empty()) {
-      throw Error(ErrorCode::bad_input,
-                  "the mesh has no solid cells; expected Tetrahedra, Hexahedra, Prisms or Pyramids",
-                  std::string(cursor_.file()));
+      cursor_.fail("the mesh has no solid cells; expected Tetrahedra, Hexahedra, Prisms or Pyramids");
     }
     keep_references(mesh_.point_fields, vertex_references_);
     keep_references(mesh_.cell_fields, cell_references_);

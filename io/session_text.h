@@ -14,7 +14,7 @@ namespace argil::io {
 
 inline constexpr std::size_t k_max_session_line = 64UL * 1024;          // bytes
 inline constexpr std::size_t k_max_session_file = 64UL * 1024 * 1024;   // bytes
-inline constexpr std::size_t k_max_session_tokens = 4UL * 1000 * 1000;  // 64 bytes each
+inline constexpr std::size_t k_max_session_tokens = 2UL * 1000 * 1000;  // 64 bytes each
 inline constexpr std::string_view k_session_header = "argil 1";         // first line of every session
 
 enum class TokenKind { word, string, number, symbol };

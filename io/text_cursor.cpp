@@ -88,8 +88,8 @@ std::size_t TextCursor::count(std::string_view expected, std::size_t bytes_each)
   const auto value = static_cast<std::size_t>(integer(expected, 0, INT64_MAX));
   // The last item needs no blank after it.
   if (value > (remaining() + 1) / bytes_each) {
-    fail(fmt::format("{} {} cannot be: only {} bytes are left in the file; was it cut short?", expected, value,
-                     remaining()));
+    fail(fmt::format("expected {} that the {} bytes left in the file can hold, found {}; was it cut short?",
+                     expected, remaining(), value));
   }
   return value;
 }

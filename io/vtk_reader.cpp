@@ -5,6 +5,8 @@
 #include <charconv>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "io/number_type.h"
 #include "io/text_cursor.h"
@@ -72,8 +74,7 @@ class Reader {
       } else if (keyword == "cell_types") {
         read_cell_types();
       } else if (keyword == "field" && !have_points_) {
-        NamedFields of_the_data_set;
-        read_field(of_the_data_set, std::nullopt);
+        read_field(passed_over_, std::nullopt);
       } else if (keyword == "metadata") {
         skip_metadata();
       } else if (keyword == "point_data") {
@@ -104,7 +105,9 @@ class Reader {
   };
 
   void read_header() {
-    for (const std::string_view word : {"#", "vtk", "DataFile", "Version"}) cursor_.keyword(word);
+    for (const std::string_view word : {"#", "vtk", "DataFile", "Version"}) {
+      if (cursor_.word("a first line") != word) cursor_.mismatch("a first line \"# vtk DataFile Version ...\"");
+    }
     const std::string_view version = cursor_.word("a version");
     int minor = 0;
     const char* const end = version.data() + version.size();
@@ -145,7 +148,7 @@ class Reader {
   std::size_t values_left(std::size_t items, std::size_t components, NumberType type) const {
     const std::size_t most = binary_ ? cursor_.remaining() / type.bytes : (cursor_.remaining() + 1) / 2;
     if (components != 0 && items > most / components) {
-      cursor_.fail(fmt::format("{} × {} values cannot be: only {} bytes are left in the file; was it cut short?",
+      cursor_.fail(fmt::format("expected {} × {} values, but only {} bytes are left in the file; was it cut short?",
                                items, components, cursor_.remaining()));
     }
     return items * components;
@@ -363,8 +366,8 @@ class Reader {
   }
 
   void add_field(NamedFields& fields, std::string name, int components, std::size_t items, NumberType type) {
-    for (const NamedField& other : fields) {
-      if (other.name == name) cursor_.fail(fmt::format("two arrays have the name {}; rename one", in_quotes(name)));
+    if (!names_.insert({&fields, name}).second) {
+      cursor_.fail(fmt::format("two arrays have the name {}; rename one", in_quotes(name)));
     }
     std::vector<double> values = doubles(items, static_cast<std::size_t>(components), type);
     fields.push_back({std::move(name), components, std::move(values)});
@@ -372,8 +375,10 @@ class Reader {
 
   TextCursor cursor_;
   VolumeMesh mesh_;
+  NamedFields passed_over_;  // the data set's own
   VtkCells cells_;
   Integers numbers_;
+  std::set<std::pair<const NamedFields*, std::string>> names_;
   std::size_t raw_at_ = 0;
   int version_ = 0;
   bool binary_ = false, have_points_ = false, have_cells_ = false, have_types_ = false;

@@ -15,8 +15,6 @@ namespace {
 
 using Fault = std::function<void(const std::string&)>;
 
-constexpr std::size_t k_deflate_growth = 1032;
-
 constexpr std::array<std::int8_t, 256> base64_values() {
   std::array<std::int8_t, 256> values{};
   for (auto& value : values) value = -1;

@@ -7,6 +7,9 @@
 
 namespace argil::io {
 
+/// Deflate grows data at most so many times.
+constexpr std::size_t k_deflate_growth = 1032;
+
 struct VtuEncoding {
   bool base64 = false;
   bool compressed = false;
@@ -19,8 +22,8 @@ struct VtuBlock {
   std::size_t consumed = 0;  // of the text, from its start
 };
 
-/// Decodes the array of exactly `size` bytes that starts `text`. Nothing is allocated that the text could not fill:
-/// deflate grows data at most 1032 times. `fault` is called with what is wrong and must throw.
+/// Decodes the array of exactly `size` bytes that starts `text`. Nothing is allocated that the text could not fill.
+/// `fault` is called with what is wrong and must throw.
 [[nodiscard]] VtuBlock decode_vtu_block(std::string_view text, const VtuEncoding& encoding, std::size_t size,
                                         const std::function<void(const std::string&)>& fault);
 

@@ -51,7 +51,7 @@ struct Scene {
 };
 
 struct PictureOptions {
-  int width = 1280, height = 800;              // 1 … 4096
+  int width = 1280, height = 800;             // 1 … 4096
   Eigen::Vector3d view_from{1.0, -1.6, 0.9};  // direction from the model's middle to the eye; z is up
   double zoom = 1;                            // 1 frames the whole scene
   bool wireframe = true;

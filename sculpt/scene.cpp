@@ -71,9 +71,10 @@ void add_edges(const Solid& solid, const Eigen::Matrix3Xd& positions, const std:
     const std::array<std::uint32_t, 2> line{surface_from_vertex[ends[0].index()],
                                             surface_from_vertex[ends[1].index()]};
     surface.wire.push_back(line);
-    const bool splits = faces.cut || faces.count != 2 || solid.edge_sharpness(EdgeId{e}) >= 1.0 ||
-                        unit_normal(solid, positions, faces.uses[0])
-                                .dot(unit_normal(solid, positions, faces.uses[1])) < k_cosine_of_split;
+    const bool splits =
+        faces.cut || faces.count != 2 || solid.edge_sharpness(EdgeId{e}) >= 1.0 ||
+        unit_normal(solid, positions, faces.uses[0]).dot(unit_normal(solid, positions, faces.uses[1])) <
+            k_cosine_of_split;
     if (splits) surface.sharp_edges.push_back(line);
   }
 }
@@ -100,7 +101,8 @@ CellData<std::uint8_t> cells_met_or_kept(const Solid& solid, const Eigen::Matrix
   for (const CellId cell : solid.cells())
     for (const FaceUseId use : solid.cell_face_uses(cell))
       for (const VertexId v : solid.face_vertices(subdiv::face_of(use)))
-        if (normal.dot(positions.col(static_cast<Eigen::Index>(v.index())) - plane.point) < -tolerance) kept[cell] = 1;
+        if (normal.dot(positions.col(static_cast<Eigen::Index>(v.index())) - plane.point) < -tolerance)
+          kept[cell] = 1;
   return kept;
 }
 
@@ -131,8 +133,7 @@ SceneSurface cells_surface(const Solid& solid, const Eigen::Matrix3Xd& positions
   for (const FaceUseId use : shown) {
     const auto loop = solid.face_vertices(subdiv::face_of(use));
     for (std::size_t i = 0; i < loop.size(); ++i)
-      surface.corners.push_back(
-          surface_from_vertex[loop[subdiv::is_back(use) ? loop.size() - 1 - i : i].index()]);
+      surface.corners.push_back(surface_from_vertex[loop[subdiv::is_back(use) ? loop.size() - 1 - i : i].index()]);
     surface.offsets.push_back(surface.corners.size());
     surface.cell_from_face.push_back(solid.owner(use).value);
     surface.cut_faces.push_back(solid.is_boundary(subdiv::face_of(use)) ? 0 : 1);

@@ -1,6 +1,6 @@
 #pragma once
-// Makes what a renderer draws (renderer.h) of solids: the boundary or, with a clip plane, whole cells of the inside;
-// the control cage; field values.
+// Makes what a renderer draws (renderer.h) of solids: the boundary or, with a clip plane, whole cells of the
+// inside; the control cage; field values.
 
 #include <Eigen/Core>
 #include <span>
@@ -19,13 +19,13 @@ struct ClipPlane {
 /// 1e-9 of the solid's extent. A cell that only touches the plane from the other side is not met.
 /// `positions`: 3 x vertex_capacity [m]. @throws Error (bad_input) for a normal that is zero or not finite.
 [[nodiscard]] subdiv::CellData<std::uint8_t> cells_met_or_kept(const subdiv::Solid& solid,
-                                                              const Eigen::Matrix3Xd& positions,
-                                                              const ClipPlane& plane);
+                                                               const Eigen::Matrix3Xd& positions,
+                                                               const ClipPlane& plane);
 
-/// The faces between a kept cell and none, or one that is not kept, ascending, seen from outside the kept cell; faces
-/// inside the solid are marked as cut. Normals split at edges of sharpness ≥ 1, of cut faces, where other than two
-/// faces meet, and where the surface bends by more than 50 degrees (coarse levels look as they are).
-/// Every edge of these faces is wire. `kept` has cell_capacity entries; empty: all cells.
+/// The faces between a kept cell and none, or one that is not kept, ascending, seen from outside the kept cell;
+/// faces inside the solid are marked as cut. Normals split at edges of sharpness ≥ 1, of cut faces, where other
+/// than two faces meet, and where the surface bends by more than 50 degrees (coarse levels look as they are). Every
+/// edge of these faces is wire. `kept` has cell_capacity entries; empty: all cells.
 /// @throws Error (bad_geometry) naming a vertex with a coordinate that is not finite. Cost O(solid).
 [[nodiscard]] SceneSurface cells_surface(const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions,
                                          const subdiv::CellData<std::uint8_t>& kept = {});
@@ -49,7 +49,8 @@ void show_field(Scene& scene, std::span<const double> value_from_vertex, const s
 /// Adds the edges and vertices of a control mesh as its cage: those of the boundary, or with `interior` all.
 void add_cage(Scene& scene, const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions, bool interior = false);
 
-/// A step of 1, 2 or 5 times a power of ten that cuts a positive span into at most `most` parts, or the next larger.
+/// A step of 1, 2 or 5 times a power of ten that cuts a positive span into at most `most` parts, or the next
+/// larger.
 [[nodiscard]] double round_step(double span, int most);
 
 }  // namespace argil::sculpt

@@ -42,7 +42,7 @@ std::string fault_of(const Include& include) {
     if (from.starts_with("tools/view/") && what.starts_with("tools/") && !what.starts_with("tools/view/"))
       return "tools/view serves the other tools and must not know them";
   } else if (include.quoted) {
-    return "is not named from the source folder, as \"room/file.h\"";
+    return "must be \"room/file.h\" from the source folder, or in <> if it is of others";
   }
   const bool in_tools = from.starts_with("tools/");
   if (starts_with_any(what, {"GL/", "GLES", "GLFW/", "EGL/", "imgui", "CLI/"}) && !in_tools)

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <random>
 
 #include "subdiv/error.h"
 
@@ -173,6 +174,48 @@ TEST(SessionText, ALineWrittenBackIsTheSameCommand) {
     else
       EXPECT_EQ(again.tokens[i].text, line.tokens[i].text);
   }
+}
+
+TEST(SessionText, TenThousandMutationsGiveAnErrorOrCommandsThatReadBack) {
+  const std::string session =
+      "argil 1\n# chair\nnew box 4 4 1 size 0.6 0.6 1/10\nselect faces where z < 0.001 and (x < 15% or x > 0.45)\n"
+      "save \"my \\\"chair\\\\.vtu\"\nset density 300+10*x\nexpect volume 3.12e-2 within 1% # \xc3\xa9\n";
+  const std::string pieces = "\"\\#/%.eE+-<=!() \t\r\n09azé\xff\x01";
+  std::mt19937 random(12345);  // its sequence is fixed by the standard
+  int accepted = 0;
+  for (int round = 0; round < 10000; ++round) {
+    std::string text = session;
+    for (unsigned edits = 1 + random() % 4; edits > 0; --edits) {
+      const std::size_t at = 8 + random() % (text.size() - 8);
+      switch (random() % 3) {
+        case 0:
+          text[at] = pieces[random() % pieces.size()];
+          break;
+        case 1:
+          text.insert(at, 1, pieces[random() % pieces.size()]);
+          break;
+        default:
+          text.erase(at, 1 + random() % 5);
+      }
+      if (text.size() < 20) break;
+    }
+    try {
+      for (const SessionLine& line : parse_session(text, "f")) {
+        const auto again = parse_session_line(format_line(line.tokens), "f", line.number);
+        ASSERT_EQ(again.tokens.size(), line.tokens.size()) << line.text;
+        for (std::size_t i = 0; i < line.tokens.size(); ++i) {
+          ASSERT_EQ(again.tokens[i].kind, line.tokens[i].kind) << line.text;
+          ASSERT_EQ(again.tokens[i].number, line.tokens[i].number) << line.text;
+        }
+        (void)expression_tokens(line, 1);
+      }
+      ++accepted;
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.where().starts_with("f:")) << error.what();
+    }
+  }
+  EXPECT_GT(accepted, 1000);  // else only the error paths were tried
+  EXPECT_LT(accepted, 9000);
 }
 
 TEST(SessionText, ReadsFilesAndNamesThoseThatAreMissing) {

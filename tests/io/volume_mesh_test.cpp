@@ -201,6 +201,30 @@ TEST(Vtu, AnArrayInWholeBlocksAndAnEmptyOneAreRead) {
   expect_same(read_vtu(VtuEncoder(style).encode(every_kind()), "t"), every_kind());
 }
 
+TEST(Vtu, ArraysThatShareAppendedDataCannotMultiplyIt) {
+  VolumeMesh mesh = every_kind();
+  mesh.point_fields = {{"stress", 9, std::vector<double>(17 * 9, 0.5)}};
+  std::string file = VtuEncoder({VtuStyle::Place::appended_raw}).encode(mesh);
+  const std::size_t begin = file.find("<DataArray"), end = file.find("/>", begin) + 2;
+  std::string copies;
+  for (int i = 0; i < 100; ++i) {
+    std::string copy = file.substr(begin, end - begin);
+    copies += copy.replace(copy.find("stress"), 6, fmt::format("s{}", i)) + "\n";
+  }
+  file.insert(end, copies);  // each copy claims 1224 bytes and is itself a tenth of that
+  EXPECT_THAT(error_of([&] { (void)read_vtu(file, "t"); }).what(),
+              testing::HasSubstr("more than the array can hold"));
+}
+
+TEST(Vtu, EmptyFacesOfAGridWithoutPolyhedraAreRead) {
+  const VolumeMesh mesh = test::only(every_kind(), CellKind::hexahedron);
+  std::string file = VtuEncoder({}).encode(mesh);
+  file.insert(file.find("</Cells>"),
+              "<DataArray type=\"Int64\" Name=\"faces\" format=\"ascii\"/>\n"
+              "<DataArray type=\"Int64\" Name=\"faceoffsets\" format=\"ascii\">-1</DataArray>\n");
+  expect_same(read_vtu(file, "t"), mesh);
+}
+
 TEST(Vtu, AZipBombIsRefusedBeforeItIsUnpacked) {
   // 10¹² points are claimed, and a compressed header that agrees with them.
   const std::string file = fmt::format(
@@ -211,7 +235,8 @@ TEST(Vtu, AZipBombIsRefusedBeforeItIsUnpacked) {
       "NumberOfComponents=\"3\" "
       "format=\"binary\">{}</DataArray></Points><Cells/></Piece></UnstructuredGrid></VTKFile>",
       test::base64(test::bytes_of(std::vector<std::uint64_t>{1, 24000000000000, 0, 100}, false)));
-  EXPECT_THAT(error_of([&] { (void)read_vtu(file, "t"); }).what(), testing::HasSubstr("cannot be in this file"));
+  EXPECT_THAT(error_of([&] { (void)read_vtu(file, "t"); }).what(),
+              testing::HasSubstr("more than the array can hold"));
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "sculpt/where.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "subdiv/error.h"
 
@@ -143,6 +144,28 @@ TEST(Where, NestingIsBounded) {
   EXPECT_EQ(value_of(nested("1+", 30000, "")), 30001);
   // The deepest stack: every rule holds one value back on every level.
   EXPECT_EQ(value_of(nested("max(0, 0 + 1 * 1 ^ (", 66, "))")), 1);
+}
+
+TEST(Where, RandomTokensGiveAnErrorOrAValue) {
+  const std::array<std::string, 30> words = {
+      "x", "y", "boundary", "1", "0.5", "2%", "+",   "-",  "*",   "/",   "^", "(",   ")",   "(",    ")",
+      ",", "<", "<=",       ">", "=",   "!=", "and", "or", "not", "min", "(", "abs", "sin", "sqrt", "z"};
+  std::mt19937 random(2024);  // its sequence is fixed by the standard
+  int accepted = 0;
+  for (int round = 0; round < 20000; ++round) {
+    std::string text = "where";
+    for (unsigned count = 1 + random() % 9; count > 0; --count) text += ' ' + words[random() % words.size()];
+    const auto line = io::parse_session_line(text, "f", 1);
+    try {
+      const auto expression = Expression::parse(std::span(line.tokens).subspan(1), line, k_variables);
+      const double value = expression.evaluate(k_values);
+      EXPECT_TRUE(!expression.is_boolean() || value == 0 || value == 1) << text;
+      ++accepted;
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.where().starts_with("f:1:")) << text;
+    }
+  }
+  EXPECT_GT(accepted, 300);  // else only the error paths were tried
 }
 
 TEST(Where, ReadsTheConditionOfALine) {

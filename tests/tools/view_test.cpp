@@ -73,9 +73,9 @@ TEST(View, SixSidesTogetherShowExactlyTheCellsAtTheBoundary) {
   const Built grid = subdiv::box_grid(4, 3, 3, {4, 3, 3});
   const Scene scene = scene_of(grid);
   std::set<std::uint32_t> shown;
-  for (const Eigen::Vector3d& from : {Eigen::Vector3d(1, 0.1, 0.1), Eigen::Vector3d(-1, 0.1, 0.1),
-                                      Eigen::Vector3d(0.1, 1, 0.1), Eigen::Vector3d(0.1, -1, 0.1),
-                                      Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
+  for (const Eigen::Vector3d& from :
+       {Eigen::Vector3d(1, 0.1, 0.1), Eigen::Vector3d(-1, 0.1, 0.1), Eigen::Vector3d(0.1, 1, 0.1),
+        Eigen::Vector3d(0.1, -1, 0.1), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
     PictureOptions how = options(160, 120);
     how.view_from = from;
     shown.merge(ids_shown(renderer().render(scene, how)));
@@ -281,7 +281,8 @@ TEST(View, OnePixelNoSceneOnePointAndTheLargestSizeAreFine) {
 
 TEST(View, RefusesWhatCannotBeDrawn) {
   const Scene good = scene_of(subdiv::box_grid(1, 1, 1, {1, 1, 1}));
-  for (const auto& [width, height] : {std::pair{0, 10}, std::pair{10, -1}, std::pair{4097, 10}, std::pair{10, 100000}})
+  for (const auto& [width, height] :
+       {std::pair{0, 10}, std::pair{10, -1}, std::pair{4097, 10}, std::pair{10, 100000}})
     EXPECT_EQ(error_of(good, options(width, height)), ErrorCode::bad_input);
   PictureOptions how = options(10, 10);
   how.samples = 3;
@@ -358,8 +359,7 @@ TEST(SurfaceMesh, NormalsAreSharedWithinSmoothRegionsAndSplitAtCreases) {
       EXPECT_NEAR((vertex.normal - Eigen::Vector3f(1, 0, 1).normalized()).norm(), 0, 1e-6F);
     }
   ASSERT_EQ(split.triangles.size(), 3U * 8);
-  for (std::size_t t = 0; t < 8; ++t)
-    EXPECT_EQ(split.vertices[split.triangles[3 * t + 2]].cell, t < 4 ? 10U : 11U);
+  for (std::size_t t = 0; t < 8; ++t) EXPECT_EQ(split.vertices[split.triangles[3 * t + 2]].cell, t < 4 ? 10U : 11U);
 }
 
 TEST(SceneSurface, SmoothShapesKeepTheirNormalsAndBoxesTheirEdges) {
@@ -383,7 +383,7 @@ TEST(SceneSurface, WireBetweenGroupsIsTheirCommonOutlineAndWhatIsSharp) {
   std::size_t on_middle = 0;
   for (const auto& ends : surface.wire)
     on_middle += surface.positions[ends[0]].x() == 2 && surface.positions[ends[1]].x() == 2 ? 1 : 0;
-  EXPECT_EQ(on_middle, 8U);                       // around the plane x = 2
+  EXPECT_EQ(on_middle, 8U);                        // around the plane x = 2
   EXPECT_EQ(surface.wire.size(), 8U + 16U + 16U);  // and the box's edges: four of 4 pieces, eight of 2
 }
 

@@ -21,7 +21,8 @@ Span free_span(double tangent, double low_margin, double high_margin) {
   return {tangent * (1 - 2 * shrink * low_margin), tangent * (1 - 2 * shrink * high_margin)};
 }
 
-/// Where the eye may stand: positions (s, depth) must satisfy -span.low ≤ (s - eye) / (depth - eye_depth) ≤ span.high.
+/// Where the eye may stand: positions (s, depth) must satisfy -span.low ≤ (s - eye) / (depth - eye_depth) ≤
+/// span.high.
 struct Side {
   double high = -HUGE_VAL, low = -HUGE_VAL;
   void add(double s, double depth, const Span& span) {
@@ -84,8 +85,8 @@ Camera framing_camera(const std::vector<Eigen::Vector3f>& positions, const sculp
   if (positions.empty()) add(Eigen::Vector3d::Zero());
 
   const double eye_depth = std::min({horizontal.depth(across), vertical.depth(upwards), nearest - 0.5});
-  const Eigen::Vector3d eye = right * horizontal.centre(eye_depth, across) +
-                              top * vertical.centre(eye_depth, upwards) - back * eye_depth;
+  const Eigen::Vector3d eye =
+      right * horizontal.centre(eye_depth, across) + top * vertical.centre(eye_depth, upwards) - back * eye_depth;
 
   Camera camera;
   Eigen::Matrix3d view;

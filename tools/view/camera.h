@@ -8,8 +8,8 @@
 
 namespace argil::view {
 
-/// Pictures are drawn in coordinates where the scene has its middle at 0 and fits a ball of radius 1, so that a model
-/// of 1e-6 m and one of 1e6 m look alike.
+/// Pictures are drawn in coordinates where the scene has its middle at 0 and fits a ball of radius 1, so that a
+/// model of 1e-6 m and one of 1e6 m look alike.
 struct Place {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double radius = 1;
@@ -28,7 +28,7 @@ struct Camera {
   Eigen::Matrix4f clip_from_world = Eigen::Matrix4f::Identity();
   Eigen::Matrix3f view_from_world = Eigen::Matrix3f::Identity();  // x right, y up, z towards the eye
   Eigen::Vector3f eye = Eigen::Vector3f::UnitZ();
-  float nearest = 0, farthest = 1;  // distances of the scene along the view
+  float nearest = 0, farthest = 1;   // distances of the scene along the view
   float pixel_at_unit_distance = 0;  // size of a pixel at distance 1
 
   /// Pixel coordinates from the top left corner.

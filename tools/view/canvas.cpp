@@ -35,8 +35,9 @@ TextMask spread(const TextMask& mask, float radius) {
 void Canvas::blend(int x, int y, const Colour& fill, float cover) {
   if (x < 0 || y < 0 || x >= picture_->width || y >= picture_->height) return;
   const float alpha = std::clamp(fill.alpha * cover, 0.0F, 1.0F);
-  std::uint8_t* pixel = &picture_->rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->width) +
-                                             static_cast<std::size_t>(x))];
+  std::uint8_t* pixel =
+      &picture_->rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->width) +
+                           static_cast<std::size_t>(x))];
   const float channels[3] = {fill.red, fill.green, fill.blue};
   for (int k = 0; k < 3; ++k)
     pixel[k] = static_cast<std::uint8_t>(

@@ -112,20 +112,21 @@ TextMask Font::draw(std::string_view text, float size, float start) const {
     if (glyph.face == nullptr) continue;
     const float scale = glyph.face->scale(size), pen = glyph.x + start, whole = std::floor(pen);
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    stbtt_GetGlyphBitmapBoxSubpixel(&glyph.face->font, glyph.index, scale, scale, pen - whole, 0, &x0, &y0, &x1, &y1);
+    stbtt_GetGlyphBitmapBoxSubpixel(&glyph.face->font, glyph.index, scale, scale, pen - whole, 0, &x0, &y0, &x1,
+                                    &y1);
     const int columns = x1 - x0, rows = y1 - y0;
     if (columns <= 0 || rows <= 0) continue;
     bitmap.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
-    stbtt_MakeGlyphBitmapSubpixel(&glyph.face->font, bitmap.data(), columns, rows, columns, scale, scale, pen - whole,
-                                  0, glyph.index);
+    stbtt_MakeGlyphBitmapSubpixel(&glyph.face->font, bitmap.data(), columns, rows, columns, scale, scale,
+                                  pen - whole, 0, glyph.index);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
         const int x = static_cast<int>(whole) + x0 + column, y = mask.baseline + y0 + row;
         if (x < 0 || x >= mask.width || y < 0 || y >= mask.height) continue;
         float& cover = mask.cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
                                   static_cast<std::size_t>(x)];
-        cover = std::min(1.0F, cover + static_cast<float>(bitmap[static_cast<std::size_t>(row * columns + column)]) /
-                                           255.0F);
+        cover = std::min(
+            1.0F, cover + static_cast<float>(bitmap[static_cast<std::size_t>(row * columns + column)]) / 255.0F);
       }
   }
   return mask;

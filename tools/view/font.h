@@ -10,10 +10,12 @@
 
 namespace argil::view {
 
-inline constexpr const char* k_font_files[] = {
-    "/usr/share/fonts/opentype/inter/Inter-Regular.otf",  "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
-    "/usr/share/fonts/opentype/inter/Inter-Medium.otf",   "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
+inline constexpr const char* k_font_files[] = {"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
+                                               "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
+                                               "/usr/share/fonts/opentype/inter/Inter-Medium.otf",
+                                               "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                               "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+                                               "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"};
 
 /// A line of text as coverage 0 … 1; `baseline` rows lie above the line that the letters stand on.
 struct TextMask {

@@ -69,8 +69,8 @@ void VertexArray::upload(const void* records, std::size_t count, std::size_t siz
     const auto* place = reinterpret_cast<const void*>(offset);
     gl_->EnableVertexAttribArray(attribute.location);
     if (attribute.integer)
-      gl_->VertexAttribIPointer(attribute.location, attribute.components, GL_UNSIGNED_INT, static_cast<GLsizei>(size),
-                                place);
+      gl_->VertexAttribIPointer(attribute.location, attribute.components, GL_UNSIGNED_INT,
+                                static_cast<GLsizei>(size), place);
     else
       gl_->VertexAttribPointer(attribute.location, attribute.components, GL_FLOAT, GL_FALSE,
                                static_cast<GLsizei>(size), place);

@@ -1,6 +1,6 @@
 #pragma once
-// OpenGL objects that free themselves. Each keeps the table of functions that made it and must die while its context
-// is current.
+// OpenGL objects that free themselves. Each keeps the table of functions that made it and must die while its
+// context is current.
 
 #include <span>
 #include <utility>

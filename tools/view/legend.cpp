@@ -72,7 +72,8 @@ std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
 
 double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width) {
   float text = 0;
-  for (const Tick& tick : legend_ticks(legend, k_most_ticks)) text = std::max(text, font.width(tick.text, k_tick_size * pixel));
+  for (const Tick& tick : legend_ticks(legend, k_most_ticks))
+    text = std::max(text, font.width(tick.text, k_tick_size * pixel));
   const float beside = text + (k_right + k_bar_width + k_gap + 20) * pixel;
   return static_cast<double>(beside) / width;
 }
@@ -107,7 +108,8 @@ void draw_label(Canvas& canvas, const Eigen::Vector2f& at, const std::string& li
   }
   canvas.disc(at.x(), at.y(), 3.4F * pixel, halo);
   canvas.disc(at.x(), at.y(), 2.2F * pixel, ink);
-  const bool to_the_left = at.x() + 8 * pixel + canvas.font().width(line, size) > static_cast<float>(width) - 4 * pixel;
+  const bool to_the_left =
+      at.x() + 8 * pixel + canvas.font().width(line, size) > static_cast<float>(width) - 4 * pixel;
   canvas.text(at.x() + (to_the_left ? -7 : 7) * pixel, at.y() - 4 * pixel, size, line, ink,
               to_the_left ? Align::right : Align::left, halo);
 }

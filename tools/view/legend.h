@@ -14,8 +14,8 @@ struct Tick {
   std::string text;  // the highest one with the unit
 };
 
-/// At most about `most` ticks at round numbers within [low, high], ascending, in a prefix of the unit that keeps them
-/// short ("0", "50", "100 kPa"); at least one.
+/// At most about `most` ticks at round numbers within [low, high], ascending, in a prefix of the unit that keeps
+/// them short ("0", "50", "100 kPa"); at least one.
 [[nodiscard]] std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most);
 
 /// Part of the picture's width that the legend takes on the right, at this size of a pixel (1 at 1280 x 800).

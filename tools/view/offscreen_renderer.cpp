@@ -18,19 +18,22 @@ constexpr int k_samples_at_once = 4'000'000;  // a picture is drawn in strips of
 
 void check(const sculpt::PictureOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > k_largest || options.height > k_largest)
-    throw Error(ErrorCode::bad_input,
-                fmt::format("expected a picture of 1 x 1 to {0} x {0} pixels, found {1} x {2}; choose a size within",
-                            k_largest, options.width, options.height));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("expected a picture of 1 x 1 to {0} x {0} pixels, found {1} x {2}; choose a size within",
+                    k_largest, options.width, options.height));
   if (options.samples != 1 && options.samples != 4 && options.samples != 9 && options.samples != 16)
-    throw Error(ErrorCode::bad_input, fmt::format("expected 1, 4, 9 or 16 samples a pixel, found {}; 4 is usual",
-                                                  options.samples));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("expected 1, 4, 9 or 16 samples a pixel, found {}; 4 is usual", options.samples));
   if (!(options.zoom >= 0.01 && options.zoom <= 1000))
-    throw Error(ErrorCode::bad_input,
-                fmt::format("expected a zoom between 0.01 and 1000, found {}; 1 shows the whole scene", options.zoom));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("expected a zoom between 0.01 and 1000, found {}; 1 shows the whole scene", options.zoom));
   if (!options.view_from.allFinite() || !(options.view_from.norm() > 1e-100) || options.view_from.norm() > 1e100)
-    throw Error(ErrorCode::bad_input,
-                fmt::format("expected a direction to look from, found {} {} {}; give three numbers such as 1 -1.6 0.9",
-                            options.view_from.x(), options.view_from.y(), options.view_from.z()));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("expected a direction to look from, found {} {} {}; give three numbers such as 1 -1.6 0.9",
+                    options.view_from.x(), options.view_from.y(), options.view_from.z()));
 }
 
 /// Every place of the scene that must be seen; all are checked.
@@ -73,15 +76,16 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const Place place = place_of(positions);
     for (Eigen::Vector3f& position : positions) position = place(position);
 
-    const float small = std::min(static_cast<float>(options.width) / 1280, static_cast<float>(options.height) / 800);
+    const float small =
+        std::min(static_cast<float>(options.width) / 1280, static_cast<float>(options.height) / 800);
     const float pixel = std::clamp(small, 0.75F, 5.0F);
     const bool has_legend = scene.legend && options.width >= 160 && options.height >= 120;
     const Camera camera = framing_camera(positions, options, margins(scene, options, pixel, has_legend));
 
     context_.make_current();
     painter_.load(scene, place, options);
-    const Sampling sampling{options.width, options.height, static_cast<int>(std::lround(std::sqrt(options.samples))),
-                            pixel};
+    const Sampling sampling{options.width, options.height,
+                            static_cast<int>(std::lround(std::sqrt(options.samples))), pixel};
     sculpt::Picture picture;
     picture.width = options.width;
     picture.height = options.height;
@@ -146,9 +150,9 @@ class OffscreenRenderer final : public sculpt::Renderer {
     std::array<int, 3> sum{};
     for (int j = 0; j < factor; ++j)
       for (int i = 0; i < factor; ++i) {
-        const std::uint8_t* sample = &samples[4 * (static_cast<std::size_t>(row * factor + j) *
-                                                       static_cast<std::size_t>(columns) +
-                                                   static_cast<std::size_t>(x * factor + i))];
+        const std::uint8_t* sample =
+            &samples[4 * (static_cast<std::size_t>(row * factor + j) * static_cast<std::size_t>(columns) +
+                          static_cast<std::size_t>(x * factor + i))];
         for (std::size_t k = 0; k < 3; ++k) sum[k] += sample[k];
       }
     const int count = factor * factor;
@@ -183,7 +187,8 @@ class OffscreenRenderer final : public sculpt::Renderer {
     return words;
   }
 
-  /// Whether the surface hides a place: it lies nearer in all pixels about it, by more than a hundredth of the scene.
+  /// Whether the surface hides a place: it lies nearer in all pixels about it, by more than a hundredth of the
+  /// scene.
   static bool is_hidden(const Camera& camera, const Eigen::Vector3f& at, const Eigen::Vector2f& pixel,
                         const std::vector<std::uint32_t>& depths, const Sampling& sampling) {
     const Eigen::Vector3f nearer = at + 0.01F * (camera.eye - at).normalized();

@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "tools/view/osmesa_context.h"
 #include "sculpt/renderer.h"
+#include "tools/view/osmesa_context.h"
 
 namespace argil::view {
 

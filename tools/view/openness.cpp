@@ -32,6 +32,21 @@ Eigen::Matrix4f look_along(const Eigen::Vector3f& towards_light) {
   return clip;
 }
 
+/// Replaces each openness by a mean over the triangles about the vertex: few directions leave blotches.
+void smooth(SurfaceMesh& mesh) {
+  std::vector<float> sum(mesh.vertices.size(), 0.0F), count(mesh.vertices.size(), 0.0F);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    float mean = 0;
+    for (std::size_t k = 0; k < 3; ++k) mean += mesh.vertices[mesh.triangles[t + k]].openness / 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[mesh.triangles[t + k]] += mean;
+      count[mesh.triangles[t + k]] += 1;
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (count[i] > 0) mesh.vertices[i].openness = sum[i] / count[i];
+}
+
 }  // namespace
 
 void measure_openness(const Gl& gl, const Program& depth_program, SurfaceMesh& mesh) {
@@ -78,6 +93,7 @@ void measure_openness(const Gl& gl, const Program& depth_program, SurfaceMesh& m
   const float some = 0.03F * static_cast<float>(count);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     mesh.vertices[i].openness = (seen[i] + 0.7F * some) / (total[i] + some);
+  for (int round = 0; round < 2; ++round) smooth(mesh);
 }
 
 }  // namespace argil::view

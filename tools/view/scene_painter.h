@@ -1,6 +1,6 @@
 #pragma once
-// Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn in
-// tiles and at several samples a pixel.
+// Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn
+// in tiles and at several samples a pixel.
 
 #include <optional>
 

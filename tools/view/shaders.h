@@ -1,6 +1,6 @@
 #pragma once
-// The shaders of pictures, in what GLSL 3.30 and GLSL ES 3.00 share; the version line is put before them. World means
-// picture coordinates (camera.h: Place).
+// The shaders of pictures, in what GLSL 3.30 and GLSL ES 3.00 share; the version line is put before them. World
+// means picture coordinates (camera.h: Place).
 
 namespace argil::view::shaders {
 
@@ -51,8 +51,8 @@ void main() {
   gl_Position = clip_from_world * vec4(position, 1.0);
 })";
 
-/// Clay: a ramp over the light of a near lamp above left (so that flat faces are not of one colour), a soft highlight, a rim, and a bounce from the ground; fields keep their
-/// colours and take only a part of the light.
+/// Clay: a ramp over the light of a near lamp above left (so that flat faces are not of one colour), a soft
+/// highlight, a rim, and a bounce from the ground; fields keep their colours and take only a part of the light.
 inline constexpr const char* k_surface_fragment = R"(
 precision highp float;
 in vec3 view_normal, to_eye, to_lamp;
@@ -226,7 +226,8 @@ void main() {
   colour = vec4(tint.rgb, tint.a * cover * strength);
 })";
 
-/// Marks of fixed size in pixels, one instance a mark: 0 a disc about the place, 1 a triangle pointing at it from below.
+/// Marks of fixed size in pixels, one instance a mark: 0 a disc about the place, 1 a triangle pointing at it from
+/// below.
 inline constexpr const char* k_mark_vertex = R"(
 precision highp float;
 layout(location = 0) in vec3 centre;

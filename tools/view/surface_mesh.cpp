@@ -31,7 +31,7 @@ class CornerSets {
 };
 
 struct FaceEdge {
-  std::array<std::uint32_t, 2> ends;   // surface vertices, ascending
+  std::array<std::uint32_t, 2> ends;    // surface vertices, ascending
   std::array<std::uint32_t, 2> corner;  // the face's corners at them
   std::uint32_t face;
 };

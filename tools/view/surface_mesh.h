@@ -22,9 +22,9 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> triangles;  // 3 each; the last is always a face's middle
 };
 
-/// `positions`: of the surface's vertices in the coordinates of the picture. Corners of a vertex share a normal where
-/// they are joined through edges with exactly two faces that are neither sharp nor the rim of a cut. Normals are
-/// weighted by angle and pointed by the faces' corners. Cost O(corners log corners).
+/// `positions`: of the surface's vertices in the coordinates of the picture. Corners of a vertex share a normal
+/// where they are joined through edges with exactly two faces that are neither sharp nor the rim of a cut. Normals
+/// are weighted by angle and pointed by the faces' corners. Cost O(corners log corners).
 [[nodiscard]] SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface,
                                        const std::vector<Eigen::Vector3f>& positions);
 
