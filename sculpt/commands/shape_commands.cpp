@@ -255,12 +255,12 @@ void set_level(Session& session, const Arguments& arguments) {
   State next = document.state();
   const int level = static_cast<int>(arguments.integer("level", 0));
   check_cells(session, static_cast<double>(refined_cell_count(document.solid(), level)));
-  // About 2 kB a cell for topology, stencils, elements and quadrature (measured on boxes).
-  if (2000.0 * static_cast<double>(refined_cell_count(document.solid(), level)) >
-      static_cast<double>(document.limits.memory))
-    throw Error(ErrorCode::limit_exceeded,
-                fmt::format("level {} would need about {:.1f} GB; raise --max-memory", level,
-                            2e-6 * static_cast<double>(refined_cell_count(document.solid(), level))));
+  // Topology, stencils, elements and one step of a box of 373,248 cells took 2.5 GB: about 7 kB a cell.
+  const double bytes = 7e3 * static_cast<double>(refined_cell_count(document.solid(), level));
+  if (bytes > static_cast<double>(document.limits.memory))
+    throw Error(
+        ErrorCode::limit_exceeded,
+        fmt::format("level {} would need about {:.1f} GB; lower it or raise --max-memory", level, 1e-9 * bytes));
   if (level == next.level) {
     session.change(std::move(next));
     return;
@@ -293,10 +293,12 @@ void set_level(Session& session, const Arguments& arguments) {
   document.assign(next);
   if (level > 0) {
     check_discretization(session);
-    const double kept = document.discretization().rest_volume / mass_properties(document.solid(), document.rest()).volume;
+    const double kept =
+        document.discretization().rest_volume / mass_properties(document.solid(), document.rest()).volume;
     if (kept < 0.6)
-      session.print(fmt::format("refinement keeps {:.0f} % of the volume; sharpen edges or begin with more cells to keep more",
-                                100 * kept));
+      session.print(fmt::format(
+          "refinement keeps {:.0f} % of the volume; sharpen edges or begin with more cells to keep more",
+          100 * kept));
     if (document.solid().cell_count() == 1 && document.solid().vertex_count() == 8)
       session.print("a lone hexahedron cannot move in all its ways once it is refined; begin with `new box 2 2 2`");
   }
