@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 fs::path path_beneath(const fs::path& root, const std::string& name, const std::string& what) {
   const auto refuse = [&](const char* why) {
-    throw Error(ErrorCode::refused, fmt::format("'{}' {}; a session reaches only files beneath {}", name, why, what));
+    throw Error(ErrorCode::refused,
+                fmt::format("'{}' {}; a session reaches only files beneath {}", name, why, what));
   };
   const fs::path relative(name);
   if (name.empty() || name.find('\0') != std::string::npos) refuse("is not a file name");
@@ -30,7 +31,8 @@ fs::path path_beneath(const fs::path& root, const std::string& name, const std::
   fs::path step = base;
   for (const fs::path& part : relative) {
     step /= part;
-    if (fs::is_symlink(fs::symlink_status(step, failure)) && !fs::exists(step, failure)) refuse("is a dangling link");
+    if (fs::is_symlink(fs::symlink_status(step, failure)) && !fs::exists(step, failure))
+      refuse("is a dangling link");
   }
   return path;
 }

@@ -36,7 +36,21 @@ void add_lines(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positio
   }
 }
 
-void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& now) {
+// Where an applied force is drawn: its point, or the middle of its faces.
+Eigen::Vector3d point_of(const Document& document, const AppliedForce& force) {
+  if (force.faces.empty())
+    return fem::position(material_point(document, force.point).stencil, document.positions());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const std::uint32_t f : force.faces)
+    for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
+      sum += document.positions().col(static_cast<Eigen::Index>(v.index()));
+      ++count;
+    }
+  return sum / static_cast<double>(count);
+}
+
+void add_marks(Scene& scene, const Document& document, const PictureRequest& request, const Eigen::Matrix3Xd& now) {
   const double size = extent(now);
   // A pinned control point is shown where it holds the surface.
   const auto node = node_from_control_vertex(document);
@@ -45,26 +59,16 @@ void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& n
   if (!document.state().pins->nodes.empty()) {
     for (const SoftPin& pin : document.state().pins->nodes) scene.pins.push_back(single(now.col(pin.node)));
   }
+  std::vector<std::array<Eigen::Vector3d, 2>> forces;
+  for (const AppliedForce& force : document.state().loads->forces)
+    forces.push_back({point_of(document, force), force.force});
+  if (request.tool_force) forces.push_back(*request.tool_force);
   double largest = 0;
-  for (const AppliedForce& force : document.state().loads->forces) largest = std::max(largest, force.force.norm());
-  for (const AppliedForce& force : document.state().loads->forces) {
-    if (!(force.force.norm() > 0)) continue;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    if (force.faces.empty()) {
-      at = fem::position(material_point(document, force.point).stencil, document.positions());
-    } else {
-      std::size_t count = 0;
-      for (const std::uint32_t f : force.faces)
-        for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
-          at += document.positions().col(static_cast<Eigen::Index>(v.index()));
-          ++count;
-        }
-      at /= static_cast<double>(count);
-    }
-    // A push ends at the surface and a pull begins there; both are longest for the largest force.
-    const Eigen::Vector3d arrow = 0.25 * size * force.force / largest;
-    scene.arrows.push_back({single(at), single(at + arrow)});
-  }
+  for (const auto& [at, force] : forces) largest = std::max(largest, force.norm());
+  // They begin where they act; the largest is a quarter of the solid long.
+  for (const auto& [at, force] : forces)
+    if (force.norm() > 1e-9 * largest)
+      scene.arrows.push_back({single(at), single(at + 0.25 * size * force / largest)});
 }
 
 Scene net_scene(const Document& document, const PictureRequest& request) {
@@ -76,7 +80,8 @@ Scene net_scene(const Document& document, const PictureRequest& request) {
   const RegularNets nets = regular_nets(solid, classify_cells(solid));
   const auto found = std::lower_bound(nets.cells.begin(), nets.cells.end(), cell);
   if (found == nets.cells.end() || *found != cell)
-    throw Error(ErrorCode::bad_input, fmt::format("cell {} is not regular, it has no 4×4×4 net; choose another", cell.value));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("cell {} is not regular, it has no 4×4×4 net; choose another", cell.value));
   const auto& net = nets.nodes[static_cast<std::size_t>(found - nets.cells.begin())];
   const Eigen::Matrix3Xd positions = apply(document.refinement().stencils.back(), document.positions());
   const Eigen::Matrix3Xd phantoms = apply(nets.phantoms, positions);
@@ -119,7 +124,8 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
       document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
   Scene scene;
   if (request.style == PictureStyle::solid) {
-    scene.surface = request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
+    scene.surface =
+        request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
     if (request.control_wire) keep_wire_between(scene.surface, control_cells(document.refinement()));
   } else {
     scene.surface = cells_surface(solid, positions);
@@ -129,14 +135,15 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   }
   if (!request.field.empty()) {
     const ShownField field = shown_field(document, request.field);
-    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title, field.unit);
+    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title,
+               field.unit);
     if (request.range) {
       scene.legend->low = (*request.range)[0];
       scene.legend->high = (*request.range)[1];
     }
   }
   if (request.cage) add_cage(scene, document.solid(), document.positions());
-  if (request.marks) add_marks(scene, document, positions);
+  if (request.marks) add_marks(scene, document, request, positions);
   return scene;
 }
 

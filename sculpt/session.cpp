@@ -15,20 +15,23 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
   std::error_code failure;
   std::filesystem::create_directories(options_.out, failure);
   if (failure)
-    throw Error(ErrorCode::bad_input, fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
-                                                  options_.out.string(), failure.message()));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
+                            options_.out.string(), failure.message()));
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
     journal_.open(journal_path_, std::ios::trunc);
     if (!journal_)
-      throw Error(ErrorCode::bad_input, fmt::format("the journal '{}' cannot be written; choose another folder with --out",
-                                                    journal_path_.string()));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the journal '{}' cannot be written; choose another folder with --out",
+                              journal_path_.string()));
     journal_ << io::k_session_header << std::endl;
   }
   if (!options_.hash_trace.empty()) {
     trace_.open(options_.hash_trace, std::ios::trunc);
     if (!trace_)
-      throw Error(ErrorCode::bad_input, fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
   }
 }
 
@@ -65,7 +68,8 @@ void Session::run_line(const io::SessionLine& line) {
   for (const char* setting : {"space", "model", "integrator"}) {
     const auto found = options_.overrides.find(setting);
     if (found != options_.overrides.end())
-      execute(io::parse_session_line(std::string(setting) + " " + found->second, std::string("--set ") + setting, 1));
+      execute(
+          io::parse_session_line(std::string(setting) + " " + found->second, std::string("--set ") + setting, 1));
   }
 }
 
@@ -78,7 +82,8 @@ void Session::execute(const io::SessionLine& line) {
   try {
     command.run(*this, arguments);
   } catch (const Error& error) {
-    if (done_.size() == depth && command.effect == Effect::state) document_.assign(start_);  // a failed command changes nothing
+    if (done_.size() == depth && command.effect == Effect::state)
+      document_.assign(start_);  // a failed command changes nothing
     if (!error.where().empty() && error.where().find(':') != std::string::npos) throw;
     const std::string detail = error.where().empty() ? "" : " (" + error.where() + ")";
     throw Error(error.code(), command.name + ": " + error.what() + detail, place());
@@ -94,13 +99,16 @@ std::string Session::place() const {
 void Session::change(State next, subdiv::Delta delta) {
   done_.push_back({start_, next, std::move(delta)});
   undone_.clear();
+  tool_force_.reset();
   document_.assign(std::move(next));
 }
 
 void Session::undo(long count) {
   if (static_cast<std::size_t>(count) > done_.size())
-    throw Error(ErrorCode::bad_input,
-                fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
+  tool_force_.reset();
   for (long i = 0; i < count; ++i) {
     Done& last = done_.back();
     if (!last.delta.empty()) subdiv::undo(*last.after.solid, last.delta);
@@ -113,7 +121,9 @@ void Session::undo(long count) {
 void Session::redo(long count) {
   if (static_cast<std::size_t>(count) > undone_.size())
     throw Error(ErrorCode::bad_input,
-                fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one", undone_.size(), count));
+                fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one",
+                            undone_.size(), count));
+  tool_force_.reset();
   for (long i = 0; i < count; ++i) {
     Done& next = undone_.back();
     if (!next.delta.empty()) subdiv::redo(*next.after.solid, next.delta);

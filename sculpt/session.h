@@ -1,11 +1,12 @@
 #pragma once
-// A session: a document, its history, its journal, and the world outside that commands may reach (folders, printing, the
-// renderer, progress). The same object runs a file, a line typed by hand, and a test.
+// A session: a document, its history, its journal, and the world outside that commands may reach (folders,
+// printing, the renderer, progress). The same object runs a file, a line typed by hand, and a test.
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,22 +29,26 @@ struct MeasureRecord {
   int line = 0;
 };
 
+struct ToolForce {
+  Eigen::Vector3d at, force;  // [m], [N]
+};
+
 /// An `expect` that did not hold.
 struct FailedExpectation {
   std::string message, where;
 };
 
 struct SessionOptions {
-  std::filesystem::path read_root = ".";   // files are read beneath it
-  std::filesystem::path out = "out";       // and written beneath this
-  std::filesystem::path hash_trace;        // empty: none
+  std::filesystem::path read_root = ".";         // files are read beneath it
+  std::filesystem::path out = "out";             // and written beneath this
+  std::filesystem::path hash_trace;              // empty: none
   std::map<std::string, std::string> overrides;  // command → arguments, `--set space=cubic`
-  long until_step = -1;                    // stop after so many simulation steps; −1: run all
+  long until_step = -1;                          // stop after so many simulation steps; −1: run all
   bool write_journal = true;
   Limits limits;
-  Renderer* renderer = nullptr;            // null: pictures are skipped, and said so
+  Renderer* renderer = nullptr;  // null: pictures are skipped, and said so
   fem::Clock clock = nullptr;
-  std::function<void(const std::string&)> print;                        // messages for the user
+  std::function<void(const std::string&)> print;  // messages for the user
   std::function<void(double fraction, const std::string& what)> progress;
 };
 
@@ -52,7 +57,8 @@ class Session {
   explicit Session(SessionOptions options);
   ~Session();
 
-  /// Runs a whole file. Stops at the first Error, which is thrown on with its place; failed expectations are collected.
+  /// Runs a whole file. Stops at the first Error, which is thrown on with its place; failed expectations are
+  /// collected.
   void run_text(const std::string& text, const std::string& file_name);
   /// Runs one line. A command that throws leaves the document as it was.
   void run_line(const io::SessionLine& line);
@@ -60,6 +66,10 @@ class Session {
 
   Document& document() { return document_; }
   const Document& document() const { return document_; }
+  /// The force of the last stroke where it held the body, until anything else changes: for pictures, not part of
+  /// the state.
+  const std::optional<ToolForce>& tool_force() const { return tool_force_; }
+  void show_tool_force(const ToolForce& force) { tool_force_ = force; }
   const SessionOptions& options() const { return options_; }
 
   // For commands.
@@ -103,6 +113,7 @@ class Session {
   Document document_;
   State start_;  // before the command that runs
   std::vector<Done> done_, undone_;
+  std::optional<ToolForce> tool_force_;
   std::vector<StepRecord> steps_;
   std::vector<FailedExpectation> failed_;
   std::vector<MeasureRecord> measures_;

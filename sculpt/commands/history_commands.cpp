@@ -4,8 +4,12 @@
 namespace argil::sculpt {
 
 std::vector<Command> history_commands() {
-  const Parameter count{.name = "count", .type = ArgumentType::integer, .help = "how many commands", .positional = true,
-                        .low = 1, .high = 1e6};
+  const Parameter count{.name = "count",
+                        .type = ArgumentType::integer,
+                        .help = "how many commands",
+                        .positional = true,
+                        .low = 1,
+                        .high = 1e6};
   const Parameter all{.name = "all", .help = "every one", .flag = true};
   return {
       {.name = "undo",
@@ -15,7 +19,8 @@ std::vector<Command> history_commands() {
        .effect = Effect::history,
        .run =
            [](Session& session, const Arguments& arguments) {
-             session.undo(arguments.has("all") ? static_cast<long>(session.undo_depth()) : arguments.integer("count", 1));
+             session.undo(arguments.has("all") ? static_cast<long>(session.undo_depth())
+                                               : arguments.integer("count", 1));
            }},
       {.name = "redo",
        .summary = "Brings back what undo took.",
@@ -24,7 +29,8 @@ std::vector<Command> history_commands() {
        .effect = Effect::history,
        .run =
            [](Session& session, const Arguments& arguments) {
-             session.redo(arguments.has("all") ? static_cast<long>(session.redo_depth()) : arguments.integer("count", 1));
+             session.redo(arguments.has("all") ? static_cast<long>(session.redo_depth())
+                                               : arguments.integer("count", 1));
            }},
   };
 }

@@ -67,7 +67,8 @@ void expect(Session& session, const Arguments& arguments) {
     if (!(value < arguments.number("below"))) fail(fmt::format("below {:.10g}", arguments.number("below")));
   }
   if (!checked)
-    throw Error(ErrorCode::bad_input, "expect wants a value, `above V` or `below V`, as in `expect volume 0.03 within 1%`");
+    throw Error(ErrorCode::bad_input,
+                "expect wants a value, `above V` or `below V`, as in `expect volume 0.03 within 1%`");
 }
 
 void save(Session& session, const Arguments& arguments) {
@@ -100,6 +101,7 @@ void render(Session& session, const Arguments& arguments) {
                                                   : PictureStyle::solid;
   request.cage = arguments.has("cage");
   request.marks = !arguments.has("plain");
+  if (session.tool_force()) request.tool_force = {session.tool_force()->at, session.tool_force()->force};
   if (arguments.has("net")) request.net_cell = static_cast<std::uint32_t>(arguments.integer("net", 0));
   request.net_steps = static_cast<int>(arguments.integer("net_steps", 4));
   PictureOptions options;
@@ -132,14 +134,20 @@ void render(Session& session, const Arguments& arguments) {
 std::vector<Command> output_commands() {
   std::vector<std::string> measures;
   for (const MeasureInfo& info : measure_table()) measures.push_back(info.name);
-  const Parameter measure_name{.name = "measure", .type = ArgumentType::word, .help = "what: see the choices",
-                               .positional = true, .required = true, .choices = measures};
+  const Parameter measure_name{.name = "measure",
+                               .type = ArgumentType::word,
+                               .help = "what: see the choices",
+                               .positional = true,
+                               .required = true,
+                               .choices = measures};
   const Parameter at{.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3};
-  const Parameter where{.name = "where", .type = ArgumentType::expression, .help = "only these nodes (reactions: control vertices)"};
+  const Parameter where{
+      .name = "where", .type = ArgumentType::expression, .help = "only these nodes (reactions: control vertices)"};
   return {
       {.name = "measure",
        .summary = "Prints a measure, and keeps it in the summary.",
-       .parameters = {measure_name, at, {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"}, where},
+       .parameters =
+           {measure_name, at, {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"}, where},
        .example = "measure displacement_z at 0.4 0.05 0.05",
        .effect = Effect::output,
        .run = print_measure},
@@ -147,7 +155,10 @@ std::vector<Command> output_commands() {
        .summary = "Checks a measure; if it does not hold, the session goes on and ends with exit status 1.",
        .parameters = {measure_name,
                       {.name = "value", .help = "the value expected", .positional = true},
-                      {.name = "within", .help = "how far off it may be; with % as a share of the value", .low = 0, .high = 1e300},
+                      {.name = "within",
+                       .help = "how far off it may be; with % as a share of the value",
+                       .low = 0,
+                       .high = 1e300},
                       {.name = "above", .help = "it must be larger"},
                       {.name = "below", .help = "it must be smaller"},
                       at,
@@ -156,36 +167,66 @@ std::vector<Command> output_commands() {
        .effect = Effect::output,
        .run = expect},
       {.name = "save",
-       .summary = "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl), beneath --out.",
-       .parameters = {{.name = "file", .type = ArgumentType::text, .help = "beneath the folder given with --out",
-                       .positional = true, .required = true},
-                      {.name = "level", .type = ArgumentType::integer, .help = "refinement level; else the finest; 0 is the cage",
-                       .low = 0, .high = 8}},
+       .summary =
+           "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl), beneath --out.",
+       .parameters = {{.name = "file",
+                       .type = ArgumentType::text,
+                       .help = "beneath the folder given with --out",
+                       .positional = true,
+                       .required = true},
+                      {.name = "level",
+                       .type = ArgumentType::integer,
+                       .help = "refinement level; else the finest; 0 is the cage",
+                       .low = 0,
+                       .high = 8}},
        .example = "save chair.vtu",
        .effect = Effect::output,
        .run = save},
       {.name = "render",
        .summary = "Makes a picture of the solid as it is now.",
-       .parameters =
-           {{.name = "file", .type = ArgumentType::text, .help = "a .png beneath the folder given with --out",
-             .positional = true, .required = true},
-            {.name = "field", .type = ArgumentType::word, .help = "colours, with a legend", .choices = shown_field_names()},
-            {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
-            {.name = "clip", .help = "a plane (point, then normal): whole cells beyond it are taken away", .count = 6},
-            {.name = "style", .type = ArgumentType::word, .help = "how", .choices = {"solid", "wireframe", "boundary_wireframe"}},
-            {.name = "cage", .help = "with the control cage", .flag = true},
-            {.name = "plain", .help = "without arrows and pins", .flag = true},
-            {.name = "wire", .type = ArgumentType::word, .help = "edges drawn: of the finest cells, of the control cells, none",
-             .choices = {"cells", "control", "none"}},
-            {.name = "light", .help = "on light ground", .flag = true},
-            {.name = "size", .type = ArgumentType::integer, .help = "width and height", .unit = "px", .count = 2, .low = 1,
-             .high = 4096},
-            {.name = "from", .help = "direction from the solid to the eye", .count = 3},
-            {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
-            {.name = "net", .type = ArgumentType::integer, .help = "this cell of the finest level in its 4×4×4 net instead",
-             .low = 0, .high = 4e9},
-            {.name = "net_steps", .type = ArgumentType::integer, .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
-             .low = 1, .high = 4}},
+       .parameters = {{.name = "file",
+                       .type = ArgumentType::text,
+                       .help = "a .png beneath the folder given with --out",
+                       .positional = true,
+                       .required = true},
+                      {.name = "field",
+                       .type = ArgumentType::word,
+                       .help = "colours, with a legend",
+                       .choices = shown_field_names()},
+                      {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
+                      {.name = "clip",
+                       .help = "a plane (point, then normal): whole cells beyond it are taken away",
+                       .count = 6},
+                      {.name = "style",
+                       .type = ArgumentType::word,
+                       .help = "how",
+                       .choices = {"solid", "wireframe", "boundary_wireframe"}},
+                      {.name = "cage", .help = "with the control cage", .flag = true},
+                      {.name = "plain", .help = "without arrows and pins", .flag = true},
+                      {.name = "wire",
+                       .type = ArgumentType::word,
+                       .help = "edges drawn: of the finest cells, of the control cells, none",
+                       .choices = {"cells", "control", "none"}},
+                      {.name = "light", .help = "on light ground", .flag = true},
+                      {.name = "size",
+                       .type = ArgumentType::integer,
+                       .help = "width and height",
+                       .unit = "px",
+                       .count = 2,
+                       .low = 1,
+                       .high = 4096},
+                      {.name = "from", .help = "direction from the solid to the eye", .count = 3},
+                      {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
+                      {.name = "net",
+                       .type = ArgumentType::integer,
+                       .help = "this cell of the finest level in its 4×4×4 net instead",
+                       .low = 0,
+                       .high = 4e9},
+                      {.name = "net_steps",
+                       .type = ArgumentType::integer,
+                       .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
+                       .low = 1,
+                       .high = 4}},
        .example = "render chair.png field strain",
        .effect = Effect::output,
        .run = render},

@@ -17,10 +17,12 @@ PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vect
   grip_ = fem::anchor_spring(touched, at, tool.strength);
   // The brush is widened where it is finer than the mesh; far from the surface it touches nothing.
   if ((held(document.positions()) - at).norm() > 2 * tool.radius)
-    throw Error(ErrorCode::bad_input,
-                fmt::format("the tool touches nothing at ({:g}, {:g}, {:g}): the surface is {:.3g} m away and its radius is "
-                            "{:g} m; begin the stroke on the surface or make the radius larger", at.x(), at.y(), at.z(),
-                            (held(document.positions()) - at).norm(), tool.radius));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format(
+            "the tool touches nothing at ({:g}, {:g}, {:g}): the surface is {:.3g} m away and its radius is "
+            "{:g} m; begin the stroke on the surface or make the radius larger",
+            at.x(), at.y(), at.z(), (held(document.positions()) - at).norm(), tool.radius));
   offset_ = held(document.positions()) - at;
 }
 
