@@ -139,7 +139,11 @@ std::filesystem::path Session::path_to_read(const std::string& name) const {
 
 std::filesystem::path Session::path_to_write(const std::string& name) const {
   const auto path = path_beneath(options_.out, name, "the folder given with --out");
-  std::filesystem::create_directories(path.parent_path());
+  std::error_code failure;
+  std::filesystem::create_directories(path.parent_path(), failure);
+  if (failure)
+    throw Error(ErrorCode::bad_input, fmt::format("the folder of '{}' cannot be made ({}); choose another name", name,
+                                                  failure.message()));
   return path;
 }
 
