@@ -42,10 +42,17 @@ State state_of(Built built) {
   return state;
 }
 
+// About 2 kB a cell for topology, stencils, elements and quadrature (measured on boxes).
+constexpr double k_bytes_per_cell = 2000;
+
 void check_cells(const Session& session, double cells) {
-  if (cells > static_cast<double>(session.options().limits.cells))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("this makes {:.0f} cells, more than {}; raise --max-cells", cells,
-                                                       session.options().limits.cells));
+  const Limits& limits = session.options().limits;
+  if (cells > static_cast<double>(limits.cells))
+    throw Error(ErrorCode::limit_exceeded, fmt::format("this makes {:.0f} cells, more than {}; lower the level or the counts, "
+                                                       "or raise --max-cells", cells, limits.cells));
+  if (k_bytes_per_cell * cells > static_cast<double>(limits.memory))
+    throw Error(ErrorCode::limit_exceeded, fmt::format("{:.0f} cells would need about {:.2g} GB; lower the level or the counts, "
+                                                       "or raise --max-memory", cells, 1e-9 * k_bytes_per_cell * cells));
 }
 
 void new_solid(Session& session, const Arguments& arguments) {
@@ -247,10 +254,6 @@ void set_level(Session& session, const Arguments& arguments) {
   State next = document.state();
   const int level = static_cast<int>(arguments.integer("level", 0));
   check_cells(session, static_cast<double>(refined_cell_count(document.solid(), level)));
-  // About 2 kB a cell for topology, stencils, elements and quadrature (measured on boxes).
-  if (2000.0 * static_cast<double>(refined_cell_count(document.solid(), level)) > static_cast<double>(document.limits.memory))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("level {} would need about {:.1f} GB; raise --max-memory", level,
-                                                       2e-6 * static_cast<double>(refined_cell_count(document.solid(), level))));
   if (level == next.level) {
     session.change(std::move(next));
     return;
@@ -285,6 +288,7 @@ void set_level(Session& session, const Arguments& arguments) {
 }
 
 void set_space(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   next.space = arguments.word("space") == "cubic" ? fem::Space::cubic : fem::Space::standard;
   next.split = static_cast<int>(arguments.integer("split", next.split));
@@ -323,7 +327,8 @@ std::vector<Command> shape_commands() {
        .parameters = {{.name = "distance", .help = "how far", .unit = "m", .positional = true, .required = true,
                        .low = -1e9, .high = 1e9},
                       {.name = "steps", .type = ArgumentType::integer, .help = "cells along the way", .low = 1, .high = 1000},
-                      {.name = "along", .help = "direction; else the mean normal of the faces", .count = 3},
+                      {.name = "along", .help = "direction; else the mean normal of the faces", .count = 3,
+                       .low = -1e9, .high = 1e9},
                       {.name = "scale", .help = "size of the far end against the near one, about the middle of each patch", .low = 1e-3, .high = 1e3},
                       where_faces},
        .example = "extrude 0.4 steps 2",
