@@ -173,7 +173,7 @@ TEST(Session, WhatWasDerivedBeforeDoesNotReachTheState) {
   // Everything is derived after each line, and again after it was undone and redone.
   TestSession measured;
   for (const std::string& line : k_long_session) {
-    measured.run({line, "measure volume", "undo", "redo"});
+    measured.run({line, "measure cells", "undo", "redo"});
     if (measured.state().level > 0) measured.run({"measure strain_max", "measure energy"});
   }
   EXPECT_EQ(measured.hash(), plain.hash());
@@ -207,7 +207,7 @@ const std::vector<BadLine> k_bad_lines = {
     {"extrude 0.1 where z > 9", ErrorCode::bad_input, "no faces fit"},
     {"extrude 0.1 where x + 1", ErrorCode::bad_input, "wants a condition", "input:1:19"},
     {"extrude 0.1 along 0 0 0 where x > 0.1", ErrorCode::bad_input, "direction is zero"},
-    {"extrude 0.1 where not boundary or x < 9 and w > 1", ErrorCode::bad_input, "'w'", "input:1:45"},
+    {"extrude 0.1 where not boundary or x < 9 and w > 1", ErrorCode::bad_input, "`w`", "input:1:45"},
     {"force 1 2", ErrorCode::bad_input, "wants 3 values", "input:1:10"},
     {"force", ErrorCode::bad_input, "three components"},
     {"force 0 0 1 at 9 9 9", ErrorCode::bad_input, "not inside the solid"},
