@@ -140,7 +140,7 @@ TEST(SessionFuzz, EveryLineSucceedsOrChangesNothing) {
     const std::size_t depth = session->undo_depth();
     session.run({"undo all"});
     ASSERT_EQ(session.hash(), empty);
-    session.run({fmt::format("redo {}", depth)});
+    if (depth > 0) session.run({fmt::format("redo {}", depth)});
     ASSERT_EQ(session.hash(), last);
   }
   // A generator whose lines all failed, or all passed, would try little.
