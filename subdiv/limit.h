@@ -10,8 +10,8 @@ namespace argil::subdiv {
 
 /// Row v = the limit position of vertex v in the vertices of the same level (rows of dead ids are empty). The row
 /// goes through one refinement of what lies about v, so that any kind of cell may lie there. At the end of a lone
-/// sharp edge the boundary's limit is a left eigenvector too; OpenSubdiv takes the smooth mask there. Every row sums
-/// to one. Cost O(cell corners), and one factorisation a kind of extraordinary neighbourhood.
+/// sharp edge the boundary's limit is a left eigenvector too; OpenSubdiv takes the smooth mask there. Every row
+/// sums to one. Cost O(cell corners), and one factorisation a kind of extraordinary neighbourhood.
 /// @throws what refine() throws.
 [[nodiscard]] Stencils limit_stencils(const Solid& solid);
 

@@ -19,10 +19,10 @@ struct RefinementStep {
 
 /// Refines `coarse` once. Rules: interior as MacCracken–Joy; boundary, sharp edges and corners (infinite) as
 /// Catmull–Clark on the boundary surface alone; an edge with more than two boundary faces is sharp, a vertex where
-/// boundary sheets touch is a corner.
-/// @throws Error (bad_topology) naming an interior edge with fewer than 3 faces, or a smooth boundary vertex of
-/// valence 2; (unsupported) naming a semi-sharp or an interior sharp edge. Cost O(cell corners); the result does
-/// not depend on the number of threads.
+/// boundary sheets touch is a corner, or a crease if they touch along the two sharp edges that run through it.
+/// @throws Error (bad_topology) naming an interior edge with fewer than 3 faces, a smooth boundary vertex of
+/// valence 2, or an element that no cell holds; (unsupported) naming a semi-sharp or an interior sharp edge or
+/// vertex. Cost O(cell corners); the result does not depend on the number of threads.
 [[nodiscard]] RefinementStep refine(const Solid& coarse);
 
 /// How the boundary rules see an edge or vertex of the boundary.

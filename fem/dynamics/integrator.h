@@ -43,7 +43,8 @@ class Integrator {
   Integrator(Integrator&&) noexcept;
   Integrator& operator=(Integrator&&) noexcept;
 
-  /// To be called when materials, mass, damping or rest positions have changed behind the system's pointers.
+  /// To be called when materials, mass, damping or rest positions have changed behind the system's pointers (a
+  /// force model at another address needs a new integrator).
   void materials_changed();
   /// Takes other pins; the rest operator is kept.
   void set_fixed(std::vector<std::uint8_t> fixed);

@@ -109,6 +109,7 @@ void Potential::constant_stiffness_product(const Eigen::Matrix3Xd& direction, Ei
 double Potential::rounding(const Eigen::Matrix3Xd& p) const {
   double sum = 0;
   for (std::size_t i = 0; i < free->size(); ++i) {
+    if (!(*free)[i]) continue;
     const auto c = static_cast<Eigen::Index>(i);
     double diagonal = rest->diagonal[i].diagonal().maxCoeff();
     if (inertia->size() > 0) diagonal += inertia->coeff(c, c);

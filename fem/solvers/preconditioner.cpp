@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 
 #include "fem/solvers/rest_operator.h"
 
@@ -47,76 +46,61 @@ class JacobiPreconditioner : public Preconditioner {
   std::vector<Eigen::Matrix3d> inverses_;
 };
 
-/// S₀ of the free control points, lower triangle, numbered as `free_points` lists them.
-Eigen::SparseMatrix<double> free_matrix(const RestOperator& rest, const Eigen::SparseMatrix<double>& inertia,
-                                        const std::vector<AnchorSpring>& springs,
-                                        const std::vector<int>& number_from_point, Eigen::Index size) {
-  std::vector<Eigen::Triplet<double, int>> triplets;
-  const auto add = [&](std::size_t i, std::size_t j, int r, int s, double value) {
-    const int a = number_from_point[i], b = number_from_point[j];
-    if (a < 0 || b < 0) return;
-    const int row = 3 * a + r, column = 3 * b + s;
-    if (row >= column) triplets.emplace_back(row, column, row == column ? (1 + k_diagonal_shift) * value : value);
-  };
-  for (Eigen::Index column = 0; column < rest.stiffness.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(rest.stiffness, column); it; ++it)
-      add(static_cast<std::size_t>(it.row() / 3), static_cast<std::size_t>(column / 3),
-          static_cast<int>(it.row() % 3), static_cast<int>(column % 3), it.value());
-  for (Eigen::Index column = 0; column < inertia.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(inertia, column); it; ++it)
-      for (int axis = 0; axis < 3; ++axis)
-        add(static_cast<std::size_t>(it.row()), static_cast<std::size_t>(column), axis, axis, it.value());
-  for (const AnchorSpring& spring : springs)
-    for (std::size_t e = 0; e < spring.control_points.size(); ++e)
-      for (std::size_t g = 0; g < spring.control_points.size(); ++g)
-        for (int axis = 0; axis < 3; ++axis)
-          add(spring.control_points[e], spring.control_points[g], axis, axis,
-              spring.stiffness * spring.weights[e] * spring.weights[g]);
-  Eigen::SparseMatrix<double> result(size, size);
-  result.setFromTriplets(triplets.begin(), triplets.end());
-  return result;
-}
-
 class FactorPreconditioner : public Preconditioner {
  public:
   FactorPreconditioner(const RestOperator& rest, const Eigen::SparseMatrix<double>& inertia,
-                       const std::vector<AnchorSpring>& springs, const std::vector<std::uint8_t>& free) {
-    std::vector<int> number_from_point(free.size(), -1);
+                       const std::vector<AnchorSpring>& springs, const std::vector<std::uint8_t>& free)
+      : number_from_point_(free.size(), -1) {
     for (std::size_t i = 0; i < free.size(); ++i) {
       if (!free[i]) continue;
-      number_from_point[i] = static_cast<int>(free_points_.size());
+      number_from_point_[i] = static_cast<Eigen::Index>(free_points_.size());
       free_points_.push_back(static_cast<Eigen::Index>(i));
     }
-    const auto size = 3 * static_cast<Eigen::Index>(free_points_.size());
-    const auto matrix = free_matrix(rest, inertia, springs, number_from_point, size);
-    dense_ = static_cast<std::size_t>(size) < k_largest_dense_factor;
-    if (dense_) {
-      dense_factor_.compute(Eigen::MatrixXd(matrix));
-    } else {
-      sparse_factor_.compute(matrix);
-    }
+    factor_.compute(matrix(rest, inertia, springs));
   }
-  bool succeeded() const { return (dense_ ? dense_factor_.info() : sparse_factor_.info()) == Eigen::Success; }
+  bool succeeded() const { return factor_.info() == Eigen::Success; }
   PreconditionerKind kind() const override { return PreconditionerKind::factor; }
   void apply(const Eigen::Matrix3Xd& r, Eigen::Matrix3Xd& z) const override {
-    Eigen::VectorXd values(3 * static_cast<Eigen::Index>(free_points_.size()));
+    Eigen::VectorXd values(size());
     for (std::size_t k = 0; k < free_points_.size(); ++k)
       values.segment<3>(3 * static_cast<Eigen::Index>(k)) = r.col(free_points_[k]);
-    if (dense_) {
-      dense_factor_.solveInPlace(values);
-    } else {
-      values = sparse_factor_.solve(values).eval();
-    }
+    factor_.solveInPlace(values);
     z.setZero(3, r.cols());
     for (std::size_t k = 0; k < free_points_.size(); ++k)
       z.col(free_points_[k]) = values.segment<3>(3 * static_cast<Eigen::Index>(k));
   }
 
  private:
-  bool dense_ = false;
-  std::vector<Eigen::Index> free_points_;
-  Eigen::LLT<Eigen::MatrixXd> dense_factor_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> sparse_factor_;
+  Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(free_points_.size()); }
+
+  /// S₀ of the free control points, lower triangle.
+  Eigen::MatrixXd matrix(const RestOperator& rest, const Eigen::SparseMatrix<double>& inertia,
+                         const std::vector<AnchorSpring>& springs) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size(), size());
+    const auto add = [&](Eigen::Index i, Eigen::Index j, Eigen::Index r, Eigen::Index s, double value) {
+      const Eigen::Index a = number_from_point_[static_cast<std::size_t>(i)],
+                         b = number_from_point_[static_cast<std::size_t>(j)];
+      if (a >= 0 && b >= 0) result(3 * a + r, 3 * b + s) += value;
+    };
+    for (Eigen::Index column = 0; column < rest.stiffness.outerSize(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(rest.stiffness, column); it; ++it)
+        add(it.row() / 3, column / 3, it.row() % 3, column % 3, it.value());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (Eigen::Index column = 0; column < inertia.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator it(inertia, column); it; ++it)
+          add(it.row(), column, axis, axis, it.value());
+      for (const AnchorSpring& spring : springs)
+        for (std::size_t e = 0; e < spring.control_points.size(); ++e)
+          for (std::size_t g = 0; g < spring.control_points.size(); ++g)
+            add(spring.control_points[e], spring.control_points[g], axis, axis,
+                spring.stiffness * spring.weights[e] * spring.weights[g]);
+    }
+    result.diagonal() *= 1 + k_diagonal_shift;
+    return result;
+  }
+
+  std::vector<Eigen::Index> free_points_, number_from_point_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;  // reads the lower triangle only
 };
 
 }  // namespace

@@ -18,8 +18,9 @@ struct Material {
 
 inline NodalFields constant_fields(const subdiv::Refinement& refinement, const Material& material) {
   const auto n = static_cast<Eigen::Index>(refinement.solid().vertex_capacity());
-  return {Eigen::VectorXd::Constant(n, material.young_modulus), Eigen::VectorXd::Constant(n, material.poisson_ratio),
-          Eigen::VectorXd::Constant(n, material.density), Eigen::VectorXd::Constant(n, material.damping)};
+  return {Eigen::VectorXd::Constant(n, material.young_modulus),
+          Eigen::VectorXd::Constant(n, material.poisson_ratio), Eigen::VectorXd::Constant(n, material.density),
+          Eigen::VectorXd::Constant(n, material.damping)};
 }
 
 class SimulatedSolid {

@@ -201,6 +201,7 @@ inline std::vector<Shape> catalogue() {
   add("hanging nodes", build(hanging_nodes()));
   add("mixed cells", build(mixed_cells()));
   add("ring", build(ring()));
+  add("dodecahedron", build(dodecahedron()));
   add("cubes that share a vertex", build(cubes({{0, 0, 0}, {1, 1, 1}})));
   add("cubes that share an edge", build(cubes({{0, 0, 0}, {1, 1, 0}})));
   add("bars that share two edges", build(cubes({{0, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}})));

@@ -38,8 +38,7 @@ double oscillator_error(Method method, int steps) {
   body.state.positions(0, 1) = 1.1;
   Integrator integrator(body.system);
   const double duration = 1.25 * std::numbers::pi + 0.4;
-  for (int i = 0; i < steps; ++i)
-    integrator.step({}, body.state, duration / steps, tight(method));
+  for (int i = 0; i < steps; ++i) integrator.step({}, body.state, duration / steps, tight(method));
   return std::abs(body.state.positions(0, 1) - (1 + 0.1 * std::cos(2 * duration)));
 }
 
@@ -101,8 +100,8 @@ TEST(Integrator, LinearMomentumIsKept) {
   SimulatedSolid solid(test::box(3, 2, 2, {0.3, 0.2, 0.2}), 1, {1e4, 0.3, 100, 0});
   for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
     solid.state.velocities.col(i) =
-        Eigen::Vector3d(0.3, -0.2, 0.5) + 2.0 * Eigen::Vector3d(std::sin(7.0 * static_cast<double>(i)), 0,
-                                                                  std::cos(3.0 * static_cast<double>(i)));
+        Eigen::Vector3d(0.3, -0.2, 0.5) +
+        2.0 * Eigen::Vector3d(std::sin(7.0 * static_cast<double>(i)), 0, std::cos(3.0 * static_cast<double>(i)));
   const Eigen::Vector3d start = momentum(solid.system, solid.state).linear;
   Integrator integrator(solid.system);
   for (int i = 0; i < 20; ++i) integrator.step({}, solid.state, 1.0 / 60, tight());
@@ -161,6 +160,47 @@ TEST(Integrator, ThreadsDoNotChangeBits) {
     return state;
   };
   EXPECT_TRUE(same_bits(run(1).positions, run(2).positions));
+}
+
+TEST(Integrator, OtherPinsAndMaterialsAreAsInAFreshIntegrator) {
+  SimulatedSolid solid(test::box(3, 1, 1, {0.3, 0.1, 0.1}), 1, {1000, 0.3, 1.25, 0});
+  const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+  Integrator kept(solid.system);
+  BodyState before = solid.state;
+  kept.step(loads, before, 1.0 / 60, {});
+
+  solid.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+  solid.fields.young_modulus *= 3;
+  ASSERT_TRUE(update_fields(solid.discretization, solid.refinement, solid.fields));
+  solid.model = make_corotational(solid.discretization.blocks, solid.discretization.rest_nodes);
+  // The integrator sees the model through its system, so a new model means a new integrator; pins and arrays do
+  // not.
+  solid.system.model = solid.model.get();
+  Integrator fresh(solid.system), repinned(solid.system);
+  repinned.set_fixed(std::vector<std::uint8_t>(solid.system.fixed.size(), 0));
+  BodyState a = solid.state, b = solid.state;
+  repinned.step(loads, b, 1.0 / 60, {});
+  EXPECT_FALSE(same_bits(b.positions, before.positions));
+  repinned.set_fixed(solid.system.fixed);
+  repinned.materials_changed();
+  b = solid.state;
+  for (int i = 0; i < 2; ++i) {
+    fresh.step(loads, a, 1.0 / 60, {});
+    repinned.step(loads, b, 1.0 / 60, {});
+  }
+  EXPECT_TRUE(same_bits(a.positions, b.positions));
+}
+
+TEST(Integrator, ManyUnknownsTakeJacobi) {
+  SimulatedSolid solid(test::box(12, 9, 9, {0.12, 0.09, 0.09}), 0, {1e4, 0.3, 1000, 0});
+  solid.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+  ASSERT_GT(3 * solid.system.rows->column_count, k_largest_factor);
+  const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+  Integrator integrator(solid.system);
+  const StepReport report = integrator.step(loads, solid.state, 1.0 / 60, {});
+  EXPECT_EQ(report.preconditioner, PreconditionerKind::jacobi);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.linear_iterations, 10);
 }
 
 TEST(Integrator, SpringDrawsTheBodyToItsTarget) {
