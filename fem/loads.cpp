@@ -76,7 +76,8 @@ PointStencil stencil_of_nodes(const subdiv::Stencils& rows, std::span<const std:
   PointStencil result;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto row = rows.row(nodes[n]);
-    for (std::size_t e = 0; e < row.columns.size(); ++e) weights[row.columns[e]] += node_weights[n] * row.weights[e];
+    for (std::size_t e = 0; e < row.columns.size(); ++e)
+      weights[row.columns[e]] += node_weights[n] * row.weights[e];
     result.control_points.insert(result.control_points.end(), row.columns.begin(), row.columns.end());
   }
   std::sort(result.control_points.begin(), result.control_points.end());

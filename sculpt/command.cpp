@@ -23,11 +23,16 @@ namespace {
 
 const char* noun(ArgumentType type) {
   switch (type) {
-    case ArgumentType::number: return "a number";
-    case ArgumentType::integer: return "a whole number";
-    case ArgumentType::word: return "a word";
-    case ArgumentType::text: return "a name";
-    case ArgumentType::expression: return "an expression";
+    case ArgumentType::number:
+      return "a number";
+    case ArgumentType::integer:
+      return "a whole number";
+    case ArgumentType::word:
+      return "a word";
+    case ArgumentType::text:
+      return "a name";
+    case ArgumentType::expression:
+      return "an expression";
   }
   return "a value";
 }
@@ -40,28 +45,35 @@ bool is_name(const io::Token& token) {
   return token.kind == io::TokenKind::word || token.kind == io::TokenKind::string;
 }
 
-void take_value(const Command& command, const Parameter& parameter, const io::SessionLine& line, const io::Token& token,
-                Argument& argument) {
+void take_value(const Command& command, const Parameter& parameter, const io::SessionLine& line,
+                const io::Token& token, Argument& argument) {
   const bool numeric = parameter.type == ArgumentType::number || parameter.type == ArgumentType::integer;
   if (numeric) {
     if (token.kind != io::TokenKind::number)
-      fail(line, token, fmt::format("{}: {} wants {}{}, found '{}'", command.name, parameter.name, noun(parameter.type),
-                              parameter.unit.empty() ? "" : " [" + parameter.unit + "]", token.text));
-    if (!std::isfinite(token.number)) fail(line, token, fmt::format("{}: {} is not finite", command.name, parameter.name));
+      fail(line, token,
+           fmt::format("{}: {} wants {}{}, found '{}'", command.name, parameter.name, noun(parameter.type),
+                       parameter.unit.empty() ? "" : " [" + parameter.unit + "]", token.text));
+    if (!std::isfinite(token.number))
+      fail(line, token, fmt::format("{}: {} is not finite", command.name, parameter.name));
     if (parameter.type == ArgumentType::integer && token.number != std::floor(token.number))
-      fail(line, token, fmt::format("{}: {} wants a whole number, found {}", command.name, parameter.name, token.text));
+      fail(line, token,
+           fmt::format("{}: {} wants a whole number, found {}", command.name, parameter.name, token.text));
     if (token.number < parameter.low || token.number > parameter.high)
-      fail(line, token, fmt::format("{}: {} must lie between {:g} and {:g}, found {}", command.name, parameter.name,
-                              parameter.low, parameter.high, token.text));
+      fail(line, token,
+           fmt::format("{}: {} must lie between {:g} and {:g}, found {}", command.name, parameter.name,
+                       parameter.low, parameter.high, token.text));
     argument.numbers.push_back(token.number);
     return;
   }
   if (!is_name(token) && !(parameter.type == ArgumentType::text && token.kind == io::TokenKind::number))
-    fail(line, token, fmt::format("{}: {} wants {}, found '{}'", command.name, parameter.name, noun(parameter.type), token.text));
+    fail(
+        line, token,
+        fmt::format("{}: {} wants {}, found '{}'", command.name, parameter.name, noun(parameter.type), token.text));
   if (!parameter.choices.empty() &&
       std::find(parameter.choices.begin(), parameter.choices.end(), token.text) == parameter.choices.end())
-    fail(line, token, fmt::format("{}: {} must be one of {}; found '{}'", command.name, parameter.name,
-                            joined(parameter.choices), token.text));
+    fail(line, token,
+         fmt::format("{}: {} must be one of {}; found '{}'", command.name, parameter.name,
+                     joined(parameter.choices), token.text));
   argument.words.push_back(token.text);
 }
 
@@ -76,11 +88,14 @@ std::string signature(const Parameter& parameter) {
     std::string upper = parameter.name;
     std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
     for (int i = 0; i < parameter.count; ++i)
-      value += (i ? " " : "") + (parameter.count == 3 ? std::string(axes[i])
-                                 : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1) : upper);
+      value += (i ? " " : "") + (parameter.count == 3  ? std::string(axes[i])
+                                 : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
+                                                       : upper);
   }
-  if (parameter.flag) value = parameter.name;
-  else if (!parameter.positional) value = parameter.name + " " + value;
+  if (parameter.flag)
+    value = parameter.name;
+  else if (!parameter.positional)
+    value = parameter.name + " " + value;
   return parameter.required ? value : "[" + value + "]";
 }
 
@@ -121,10 +136,12 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
     if (!parameter.positional) continue;
     const bool numeric = parameter.type == ArgumentType::number || parameter.type == ArgumentType::integer;
     if (parameter.type == ArgumentType::expression) {
-      if (i >= tokens.size()) fail_at_end(line, fmt::format("{}: {} is missing ({})", command.name, parameter.name, parameter.help));
+      if (i >= tokens.size())
+        fail_at_end(line, fmt::format("{}: {} is missing ({})", command.name, parameter.name, parameter.help));
       Argument argument;
       argument.at = tokens[i];
-      argument.expression = std::make_shared<const Expression>(Expression::parse(io::expression_tokens(line, i), line, variable_table()));
+      argument.expression = std::make_shared<const Expression>(
+          Expression::parse(io::expression_tokens(line, i), line, variable_table()));
       while (i < tokens.size() && !(tokens[i].kind == io::TokenKind::word && tokens[i].text == "where")) ++i;
       arguments.set(parameter.name, std::move(argument));
       continue;
@@ -133,15 +150,15 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
                       (parameter.required || numeric == (tokens[i].kind == io::TokenKind::number));
     if (!fits) {
       if (!parameter.required) continue;
-      fail_at_end(line, fmt::format("{}: {} is missing ({}). Usage: {}", command.name, parameter.name, parameter.help,
-                                      usage(command)));
+      fail_at_end(line, fmt::format("{}: {} is missing ({}). Usage: {}", command.name, parameter.name,
+                                    parameter.help, usage(command)));
     }
     Argument argument;
     argument.at = tokens[i];
     for (int k = 0; k < parameter.count; ++k) {
       if (i >= tokens.size())
-        fail_at_end(line, fmt::format("{}: {} wants {} values, the line ends after {}", command.name, parameter.name,
-                                        parameter.count, k));
+        fail_at_end(line, fmt::format("{}: {} wants {} values, the line ends after {}", command.name,
+                                      parameter.name, parameter.count, k));
       take_value(command, parameter, line, tokens[i++], argument);
     }
     arguments.set(parameter.name, std::move(argument));
@@ -153,10 +170,12 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
       std::vector<std::string> names;
       for (const Parameter& p : command.parameters)
         if (!p.positional) names.push_back(p.name);
-      fail(line, name, fmt::format("{}: '{}' is not one of its arguments{}{}. Usage: {}", command.name, name.text,
-                             names.empty() ? "" : ": ", joined(names), usage(command)));
+      fail(line, name,
+           fmt::format("{}: '{}' is not one of its arguments{}{}. Usage: {}", command.name, name.text,
+                       names.empty() ? "" : ": ", joined(names), usage(command)));
     }
-    if (arguments.has(parameter->name)) fail(line, name, fmt::format("{}: {} is given twice", command.name, parameter->name));
+    if (arguments.has(parameter->name))
+      fail(line, name, fmt::format("{}: {} is given twice", command.name, parameter->name));
     ++i;
     Argument argument;
     argument.at = name;
@@ -164,15 +183,16 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
       const auto rest = std::span(tokens).subspan(i);
       argument.expression = std::make_shared<const Expression>(Expression::parse(rest, line, variable_table()));
       if (!argument.expression->is_boolean())
-        fail(line, rest.front(), fmt::format("{}: {} wants a condition, as in `where z < 0.1`, and this is a number",
-                                             command.name, parameter->name));
+        fail(line, rest.front(),
+             fmt::format("{}: {} wants a condition, as in `where z < 0.1`, and this is a number", command.name,
+                         parameter->name));
       i = tokens.size();
     } else if (!parameter->flag) {
       for (int k = 0; k < parameter->count; ++k) {
         if (i >= tokens.size())
           fail_at_end(line, fmt::format("{}: {} wants {}, the line ends", command.name, parameter->name,
-                                          parameter->count == 1 ? std::string(noun(parameter->type))
-                                                                : fmt::format("{} values", parameter->count)));
+                                        parameter->count == 1 ? std::string(noun(parameter->type))
+                                                              : fmt::format("{} values", parameter->count)));
         if (k == 0) argument.at = tokens[i];
         take_value(command, *parameter, line, tokens[i++], argument);
       }
@@ -181,16 +201,16 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
   }
   for (const Parameter& parameter : command.parameters)
     if (parameter.required && !arguments.has(parameter.name))
-      fail_at_end(line, fmt::format("{}: {} is missing ({}). Usage: {}", command.name, parameter.name, parameter.help,
-                                      usage(command)));
+      fail_at_end(line, fmt::format("{}: {} is missing ({}). Usage: {}", command.name, parameter.name,
+                                    parameter.help, usage(command)));
   return arguments;
 }
 
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table = [] {
     std::vector<Command> all;
-    for (auto* group : {&shape_commands, &selection_commands, &material_commands, &simulation_commands, &tool_commands,
-                        &history_commands, &output_commands}) {
+    for (auto* group : {&shape_commands, &selection_commands, &material_commands, &simulation_commands,
+                        &tool_commands, &history_commands, &output_commands}) {
       auto commands = (*group)();
       std::move(commands.begin(), commands.end(), std::back_inserter(all));
     }
@@ -203,7 +223,8 @@ const std::vector<Command>& command_table() {
 const Command& find_command(const io::SessionLine& line) {
   const io::Token& name = line.tokens.at(0);
   const auto& table = command_table();
-  const auto found = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.name == name.text; });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.name == name.text; });
   if (found != table.end() && name.kind == io::TokenKind::word) return *found;
   std::vector<std::string> names;
   for (const Command& c : table) names.push_back(c.name);
@@ -224,8 +245,10 @@ std::string help_text(const Command& command) {
   for (const Parameter& parameter : command.parameters) {
     std::string note = parameter.help;
     if (!parameter.unit.empty()) note += " [" + parameter.unit + "]";
-    if (parameter.low > -1e300 && parameter.high < 1e300) note += fmt::format(" ({:g} … {:g})", parameter.low, parameter.high);
-    else if (parameter.low > -1e300) note += fmt::format(" (at least {:g})", parameter.low);
+    if (parameter.low > -1e300 && parameter.high < 1e300)
+      note += fmt::format(" ({:g} … {:g})", parameter.low, parameter.high);
+    else if (parameter.low > -1e300)
+      note += fmt::format(" (at least {:g})", parameter.low);
     text += fmt::format("  {:<14} {}\n", parameter.name, note);
   }
   text += fmt::format("\nExample:\n  {}\n", command.example);
@@ -234,7 +257,8 @@ std::string help_text(const Command& command) {
 
 std::string command_overview() {
   std::string text;
-  for (const Command& command : command_table()) text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+  for (const Command& command : command_table())
+    text += fmt::format("  {:<12} {}\n", command.name, command.summary);
   return text;
 }
 

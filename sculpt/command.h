@@ -1,7 +1,7 @@
 #pragma once
-// The one table of commands (DESIGN.md): name, arguments with types, ranges and units, help, example, and what it does. It
-// drives session files, `argil help`, undo and the journal. io/session_text only splits lines into tokens; `bind` gives
-// them their types.
+// The one table of commands (DESIGN.md): name, arguments with types, ranges and units, help, example, and what it
+// does. It drives session files, `argil help`, undo and the journal. io/session_text only splits lines into tokens;
+// `bind` gives them their types.
 
 #include <Eigen/Core>
 #include <functional>
@@ -25,13 +25,13 @@ struct Parameter {
   std::string name{};
   ArgumentType type = ArgumentType::number;
   std::string help{};
-  std::string unit{};                  // "m", "N", …; empty for a pure number
-  int count = 1;                     // values that follow the name (a vector has 3)
-  bool positional = false;           // stands without its name, before the named ones
+  std::string unit{};       // "m", "N", …; empty for a pure number
+  int count = 1;            // values that follow the name (a vector has 3)
+  bool positional = false;  // stands without its name, before the named ones
   bool required = false;
-  double low = -1e300, high = 1e300; // allowed range of numbers
+  double low = -1e300, high = 1e300;   // allowed range of numbers
   std::vector<std::string> choices{};  // allowed words; empty: any
-  bool flag = false;                 // a name alone
+  bool flag = false;                   // a name alone
 };
 
 /// One bound argument.
@@ -39,7 +39,7 @@ struct Argument {
   std::vector<double> numbers;
   std::vector<std::string> words;
   std::shared_ptr<const Expression> expression;
-  io::Token at;                      // its first token, for messages
+  io::Token at;  // its first token, for messages
 };
 
 class Arguments {

@@ -33,11 +33,16 @@ FieldName field_by_word(const std::string& word) {
 
 const char* word(ElementType type) {
   switch (type) {
-    case ElementType::vertices: return "vertices";
-    case ElementType::edges: return "edges";
-    case ElementType::faces: return "faces";
-    case ElementType::cells: return "cells";
-    case ElementType::nodes: return "nodes";
+    case ElementType::vertices:
+      return "vertices";
+    case ElementType::edges:
+      return "edges";
+    case ElementType::faces:
+      return "faces";
+    case ElementType::cells:
+      return "cells";
+    case ElementType::nodes:
+      return "nodes";
   }
   return "";
 }
@@ -217,7 +222,9 @@ Eigen::Matrix3Xd Document::surface_nodes(const Eigen::Matrix3Xd& control_points)
 std::uint64_t Document::state_hash() const {
   const State& s = state_;
   Hash hash;
-  const auto add_matrix = [&](const auto& m) { hash.add(std::span<const double>(m.data(), static_cast<std::size_t>(m.size()))); };
+  const auto add_matrix = [&](const auto& m) {
+    hash.add(std::span<const double>(m.data(), static_cast<std::size_t>(m.size())));
+  };
   hash.add(solid().topology_hash());
   add_matrix(*s.rest);
   const fem::BodyState& motion = *s.motion;

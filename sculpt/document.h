@@ -1,7 +1,7 @@
 #pragma once
-// The document: one solid with everything that a command may change (SESSION.md, "State"), and what is derived from it.
-// State is held in parts that never change once made, so that remembering a state for undo costs a few pointers; the
-// topology alone is edited in place, by transactions whose deltas undo keeps.
+// The document: one solid with everything that a command may change (SESSION.md, "State"), and what is derived from
+// it. State is held in parts that never change once made, so that remembering a state for undo costs a few
+// pointers; the topology alone is edited in place, by transactions whose deltas undo keeps.
 
 #include <Eigen/Core>
 #include <array>
@@ -51,8 +51,8 @@ struct Pins {
 
 /// A force that stays until it is cleared: on boundary faces of the control solid, or at a material point.
 struct AppliedForce {
-  Eigen::Vector3d force;                     // [N], in total
-  std::vector<std::uint32_t> faces;          // control faces; empty: at `point`
+  Eigen::Vector3d force;                            // [N], in total
+  std::vector<std::uint32_t> faces;                 // control faces; empty: at `point`
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // rest position
 };
 struct AppliedLoads {
@@ -69,17 +69,17 @@ struct Selection {
 
 struct Tool {
   std::string name = "pull";
-  double radius = 0.1;          // [m]
-  double strength = 50;         // [N/m]
-  double largest_force = 1e6;   // [N]
+  double radius = 0.1;         // [m]
+  double strength = 50;        // [N/m]
+  double largest_force = 1e6;  // [N]
   std::string falloff = "smooth";
 };
 
 /// Everything that undo restores, but for the topology itself.
 struct State {
-  std::shared_ptr<subdiv::Solid> solid;                 // edited in place; replaced by `new` and `open`
-  std::shared_ptr<const Eigen::Matrix3Xd> rest;         // P, 3 x vertex capacity [m]
-  std::shared_ptr<const fem::BodyState> motion;         // p, v, history, time
+  std::shared_ptr<subdiv::Solid> solid;          // edited in place; replaced by `new` and `open`
+  std::shared_ptr<const Eigen::Matrix3Xd> rest;  // P, 3 x vertex capacity [m]
+  std::shared_ptr<const fem::BodyState> motion;  // p, v, history, time
   std::shared_ptr<const Fields> fields;
   std::shared_ptr<const Pins> pins;
   std::shared_ptr<const AppliedLoads> loads;
@@ -92,7 +92,7 @@ struct State {
   fem::Method method = fem::Method::bdf2;
   int newton_cap = 3;
   double time_step = 1.0 / 60;  // [s]
-  double tick_carry = 0;        // device ticks since the last step, less than a step: the next stroke goes on from there
+  double tick_carry = 0;  // device ticks since the last step, less than a step: the next stroke goes on from there
   Tool tool;
 };
 
@@ -109,8 +109,8 @@ class Document {
   ~Document();
 
   const State& state() const { return state_; }
-  /// What a command does: builds the next state from a copy and hands it over. Topology edits come with their delta,
-  /// already applied to the solid.
+  /// What a command does: builds the next state from a copy and hands it over. Topology edits come with their
+  /// delta, already applied to the solid.
   void assign(State next) { state_ = std::move(next); }
   bool empty() const { return state_.solid->cell_count() == 0; }
   const subdiv::Solid& solid() const { return *state_.solid; }
@@ -125,9 +125,10 @@ class Document {
   fem::Integrator& integrator() const;
   /// Loads that do not come from a tool, in control points, with the soft pins as springs.
   const fem::Loads& loads() const;
-  const subdiv::BoundarySurface& surface() const;  // of the finest level
+  const subdiv::BoundarySurface& surface() const;    // of the finest level
   const fem::ShownElements& shown_elements() const;  // for strain and stress
-  /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x vertices.
+  /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x
+  /// vertices.
   Eigen::Matrix3Xd surface_nodes(const Eigen::Matrix3Xd& control_points) const;
 
   /// FNV-1a over the canonical state (SESSION.md, "Promises").

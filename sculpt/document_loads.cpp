@@ -14,7 +14,8 @@ std::vector<FaceId> finest_faces(const Refinement& refinement, const std::vector
   std::vector<std::uint8_t> chosen(refinement.levels[0].face_capacity(), 0);
   for (const std::uint32_t f : control_faces) chosen[f] = 1;
   for (std::size_t level = 1; level < refinement.levels.size(); ++level) {
-    // A fine face that came of a coarse one holds the coarse face's point; those points follow the vertices and edges.
+    // A fine face that came of a coarse one holds the coarse face's point; those points follow the vertices and
+    // edges.
     const Solid& coarse = refinement.levels[level - 1];
     const Solid& fine = refinement.levels[level];
     const std::size_t first = coarse.vertex_count() + coarse.edge_count();
@@ -41,9 +42,12 @@ fem::MaterialPoint material_point(const Document& document, const Eigen::Vector3
     return fem::locate(document.discretization(), rest_position);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::not_found) throw;
-    throw Error(ErrorCode::bad_input,
-                fmt::format("({:g}, {:g}, {:g}) is not inside the solid; give the rest position of a point in it (refinement "
-                            "draws smooth boundaries inwards)", rest_position.x(), rest_position.y(), rest_position.z()));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format(
+            "({:g}, {:g}, {:g}) is not inside the solid; give the rest position of a point in it (refinement "
+            "draws smooth boundaries inwards)",
+            rest_position.x(), rest_position.y(), rest_position.z()));
   }
 }
 
@@ -58,8 +62,8 @@ fem::Loads document_loads(const Document& document) {
                                         static_cast<std::size_t>(loads.forces.cols()), force.force);
     } else {
       const auto faces = finest_faces(document.refinement(), force.faces);
-      loads.forces += fem::spread_force(d, fem::surface_patch(d, document.refinement().solid(), faces), d.rest_nodes,
-                                        force.force);
+      loads.forces += fem::spread_force(d, fem::surface_patch(d, document.refinement().solid(), faces),
+                                        d.rest_nodes, force.force);
     }
   }
   for (const SoftPin& pin : document.state().pins->nodes) {
@@ -82,9 +86,12 @@ fem::Falloff falloff_by_word(const std::string& word) {
 double falloff_weight(fem::Falloff falloff, double s) {
   if (s >= 1) return 0;
   switch (falloff) {
-    case fem::Falloff::constant: return 1;
-    case fem::Falloff::linear: return 1 - s;
-    case fem::Falloff::smooth: return (1 - s * s) * (1 - s * s);
+    case fem::Falloff::constant:
+      return 1;
+    case fem::Falloff::linear:
+      return 1 - s;
+    case fem::Falloff::smooth:
+      return (1 - s * s) * (1 - s * s);
   }
   return 0;
 }

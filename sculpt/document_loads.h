@@ -17,7 +17,7 @@ namespace argil::sculpt {
 
 /// Boundary faces of the finest level that came from these control faces, ascending.
 [[nodiscard]] std::vector<subdiv::FaceId> finest_faces(const subdiv::Refinement& refinement,
-                                                     const std::vector<std::uint32_t>& control_faces);
+                                                       const std::vector<std::uint32_t>& control_faces);
 
 /// smooth, linear or constant.
 [[nodiscard]] fem::Falloff falloff_by_word(const std::string& word);

@@ -29,9 +29,9 @@ std::vector<std::string> save_document(const Document& document, const std::file
   const subdiv::Refinement& refined = document.refinement();
   const subdiv::Solid& solid = refined.levels[static_cast<std::size_t>(level)];
   const bool finest = level == document.state().level;
-  const Eigen::Matrix3Xd positions = finest && level > 0
-                                         ? document.surface_nodes(document.positions())
-                                         : subdiv::apply(refined.stencils[static_cast<std::size_t>(level)], document.positions());
+  const Eigen::Matrix3Xd positions =
+      finest && level > 0 ? document.surface_nodes(document.positions())
+                          : subdiv::apply(refined.stencils[static_cast<std::size_t>(level)], document.positions());
   std::vector<std::string> notes;
   if (is_surface_format(path)) {
     io::write_surface(path, surface_mesh(solid, positions));
@@ -42,8 +42,9 @@ std::vector<std::string> save_document(const Document& document, const std::file
   // Fields live on the nodes of the finest level; dead ids are squeezed out as cell_lists does.
   const bool holds_fields = path.extension() != ".mesh";
   if (!finest || !holds_fields) {
-    notes.push_back(fmt::format("{} holds the shape alone: {}", path.filename().string(),
-                                holds_fields ? "fields belong to the finest level" : "MEDIT has no place for fields"));
+    notes.push_back(
+        fmt::format("{} holds the shape alone: {}", path.filename().string(),
+                    holds_fields ? "fields belong to the finest level" : "MEDIT has no place for fields"));
   } else {
     std::vector<std::string> names;
     for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
@@ -51,7 +52,8 @@ std::vector<std::string> save_document(const Document& document, const std::file
     for (const std::string& name : names) {
       const ShownField field = shown_field(document, name);
       io::NamedField out{.name = name, .components = 1, .values = {}};
-      for (const subdiv::VertexId v : solid.vertices()) out.values.push_back(field.values[static_cast<Eigen::Index>(v.index())]);
+      for (const subdiv::VertexId v : solid.vertices())
+        out.values.push_back(field.values[static_cast<Eigen::Index>(v.index())]);
       mesh.point_fields.push_back(std::move(out));
     }
     const Eigen::Matrix3Xd moved =

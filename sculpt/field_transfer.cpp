@@ -44,8 +44,9 @@ struct PointIds {
 };
 
 PointIds point_ids(const Solid& coarse) {
-  PointIds ids{std::vector<std::uint32_t>(coarse.vertex_capacity()), std::vector<std::uint32_t>(coarse.edge_capacity()),
-               std::vector<std::uint32_t>(coarse.face_capacity()), std::vector<std::uint32_t>(coarse.cell_capacity())};
+  PointIds ids{
+      std::vector<std::uint32_t>(coarse.vertex_capacity()), std::vector<std::uint32_t>(coarse.edge_capacity()),
+      std::vector<std::uint32_t>(coarse.face_capacity()), std::vector<std::uint32_t>(coarse.cell_capacity())};
   std::uint32_t next = 0;
   for (const VertexId v : coarse.vertices()) ids.vertex[v.index()] = next++;
   for (const EdgeId e : coarse.edges()) ids.edge[e.index()] = next++;
@@ -111,7 +112,8 @@ std::shared_ptr<const Fields> fields_at_level(const Fields& fields, const Refine
   auto result = std::make_shared<Fields>(fields);
   for (int level = from.finest(); level < to.finest(); ++level)
     for (auto& values : result->values) {
-      // Means lie between the least and the largest; cut there, rounding neither leaves a range nor blurs a constant.
+      // Means lie between the least and the largest; cut there, rounding neither leaves a range nor blurs a
+      // constant.
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const VertexId v : to.levels[static_cast<std::size_t>(level)].vertices()) {
         low = std::min(low, values[static_cast<Eigen::Index>(v.index())]);
@@ -142,7 +144,8 @@ std::vector<std::uint32_t> nodes_at_level(const Refinement& from, const Refineme
   }
   for (int level = from.finest(); level > to.finest(); --level) {
     const Solid& coarse = from.levels[static_cast<std::size_t>(level) - 1];
-    std::vector<std::uint32_t> coarse_from_fine(from.levels[static_cast<std::size_t>(level)].vertex_capacity(), k_no_node);
+    std::vector<std::uint32_t> coarse_from_fine(from.levels[static_cast<std::size_t>(level)].vertex_capacity(),
+                                                k_no_node);
     std::uint32_t next = 0;
     for (const VertexId v : coarse.vertices()) coarse_from_fine[next++] = v.value;
     for (auto& node : map)
@@ -162,7 +165,7 @@ std::vector<std::uint32_t> nodes_after_edit(const Refinement& before, const Refi
 }
 
 std::shared_ptr<const Fields> fields_after_edit(const Fields& fields, const std::vector<std::uint32_t>& node_map,
-                                              const Refinement& after) {
+                                                const Refinement& after) {
   const Solid& solid = after.solid();
   const std::size_t count = solid.vertex_capacity();
   std::vector<std::uint8_t> known(count, 0);
@@ -187,7 +190,8 @@ std::shared_ptr<const Fields> fields_after_edit(const Fields& fields, const std:
         const VertexId w = solid.other_vertex(e, v);
         if (!known[w.index()]) return;
         ++neighbours;
-        for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += result->values[f][static_cast<Eigen::Index>(w.index())];
+        for (std::size_t f = 0; f < sum.size(); ++f)
+          sum[f] += result->values[f][static_cast<Eigen::Index>(w.index())];
       });
       if (neighbours == 0) {
         still.push_back(v);

@@ -1,5 +1,6 @@
 #pragma once
-// Carries what hangs on the nodes of the finest level to another level of the same solid, or through a topology edit.
+// Carries what hangs on the nodes of the finest level to another level of the same solid, or through a topology
+// edit.
 
 #include <cstdint>
 #include <memory>
@@ -12,15 +13,19 @@ namespace argil::sculpt {
 inline constexpr std::uint32_t k_no_node = 0xffffffffU;
 
 /// Rising, a node becomes its vertex point; falling, it stays where the coarser level has it (else k_no_node).
-[[nodiscard]] std::vector<std::uint32_t> nodes_at_level(const subdiv::Refinement& from, const subdiv::Refinement& to);
+[[nodiscard]] std::vector<std::uint32_t> nodes_at_level(const subdiv::Refinement& from,
+                                                        const subdiv::Refinement& to);
 /// Fields rising by the stencils (weights ≥ 0 keep them positive), falling by restriction.
 [[nodiscard]] std::shared_ptr<const Fields> fields_at_level(const Fields& fields, const subdiv::Refinement& from,
-                                                          const subdiv::Refinement& to);
+                                                            const subdiv::Refinement& to);
 
-/// New node from old node where the element that it stands for lived on, else k_no_node. Cost O(finest level · log).
-[[nodiscard]] std::vector<std::uint32_t> nodes_after_edit(const subdiv::Refinement& before, const subdiv::Refinement& after);
+/// New node from old node where the element that it stands for lived on, else k_no_node. Cost O(finest level ·
+/// log).
+[[nodiscard]] std::vector<std::uint32_t> nodes_after_edit(const subdiv::Refinement& before,
+                                                          const subdiv::Refinement& after);
 /// What stayed keeps its value, what grew takes the mean of its known neighbours, layer by layer.
-[[nodiscard]] std::shared_ptr<const Fields> fields_after_edit(const Fields& fields, const std::vector<std::uint32_t>& node_map,
-                                                            const subdiv::Refinement& after);
+[[nodiscard]] std::shared_ptr<const Fields> fields_after_edit(const Fields& fields,
+                                                              const std::vector<std::uint32_t>& node_map,
+                                                              const subdiv::Refinement& after);
 
 }  // namespace argil::sculpt

@@ -28,10 +28,14 @@ Eigen::VectorXd stress(const Document& document) {
 
 double axis_of(const std::string& name, const Eigen::Vector3d& v) {
   switch (name.back()) {
-    case 'x': return v.x();
-    case 'y': return v.y();
-    case 'z': return v.z();
-    default: return v.norm();
+    case 'x':
+      return v.x();
+    case 'y':
+      return v.y();
+    case 'z':
+      return v.z();
+    default:
+      return v.norm();
   }
 }
 
@@ -82,9 +86,12 @@ const std::vector<MeasureInfo>& measure_table() {
         {"reaction", "N", "what the pins apply", false, true},
     };
     for (const char* axis : {"x", "y", "z"}) {
-      all.push_back({fmt::format("displacement_{}", axis), "m", fmt::format("along {}, of a material point", axis), true});
-      all.push_back({fmt::format("position_{}", axis), "m", fmt::format("present {} of a material point", axis), true});
-      all.push_back({fmt::format("reaction_{}", axis), "N", fmt::format("along {}, what the pins apply", axis), false, true});
+      all.push_back(
+          {fmt::format("displacement_{}", axis), "m", fmt::format("along {}, of a material point", axis), true});
+      all.push_back(
+          {fmt::format("position_{}", axis), "m", fmt::format("present {} of a material point", axis), true});
+      all.push_back(
+          {fmt::format("reaction_{}", axis), "N", fmt::format("along {}, what the pins apply", axis), false, true});
       all.push_back({fmt::format("momentum_{}", axis), "kg m/s", fmt::format("along {}", axis)});
     }
     std::sort(all.begin(), all.end(), [](const MeasureInfo& a, const MeasureInfo& b) { return a.name < b.name; });
@@ -95,7 +102,8 @@ const std::vector<MeasureInfo>& measure_table() {
 
 double measure(const Document& document, const MeasureQuery& query) {
   const auto& table = measure_table();
-  const auto found = std::find_if(table.begin(), table.end(), [&](const MeasureInfo& m) { return m.name == query.name; });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const MeasureInfo& m) { return m.name == query.name; });
   if (found == table.end()) {
     std::vector<std::string> names;
     for (const MeasureInfo& info : table) names.push_back(info.name);
@@ -126,11 +134,13 @@ double measure(const Document& document, const MeasureQuery& query) {
     return static_cast<double>(e.cubic + e.linear + e.pyramid);
   }
   if (name == "unknowns")
-    return 3.0 * static_cast<double>(document.solid().vertex_count() - document.state().pins->control_points.size());
+    return 3.0 *
+           static_cast<double>(document.solid().vertex_count() - document.state().pins->control_points.size());
   if (name == "max_displacement")
-    return over_nodes(document, query,
-                      (document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
-                      false);
+    return over_nodes(
+        document, query,
+        (document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
+        false);
   if (name == "max_speed")
     return over_nodes(document, query, document.surface_nodes(motion.velocities).colwise().norm(), false);
   if (name == "pin_motion") {
@@ -139,10 +149,8 @@ double measure(const Document& document, const MeasureQuery& query) {
       largest = std::max(largest, (document.positions().col(v) - document.rest().col(v)).norm());
     return largest;
   }
-  if (name.starts_with("strain"))
-    return over_nodes(document, query, strain(document), name == "strain_mean");
-  if (name.starts_with("stress"))
-    return over_nodes(document, query, stress(document), name == "stress_mean");
+  if (name.starts_with("strain")) return over_nodes(document, query, strain(document), name == "strain_mean");
+  if (name.starts_with("stress")) return over_nodes(document, query, stress(document), name == "stress_mean");
   if (name.starts_with("reaction")) return axis_of(name, total_reaction(document, query.where));
   if (name.starts_with("momentum")) return axis_of(name, fem::momentum(document.system(), motion).linear);
   const fem::MaterialPoint point = material_point(document, *query.at);
@@ -161,9 +169,11 @@ ShownField shown_field(const Document& document, const std::string& name) {
   if (name == "strain") return {strain(document), "strain", "%"};
   if (name == "stress") return {stress(document), "von Mises stress", "Pa"};
   if (name == "displacement")
-    return {(document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
-            "displacement", "m"};
-  if (name == "speed") return {document.surface_nodes(document.state().motion->velocities).colwise().norm(), "speed", "m/s"};
+    return {
+        (document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
+        "displacement", "m"};
+  if (name == "speed")
+    return {document.surface_nodes(document.state().motion->velocities).colwise().norm(), "speed", "m/s"};
   for (const FieldInfo& info : field_table())
     if (name == info.word) {
       std::string title = name;

@@ -12,8 +12,8 @@ namespace argil::sculpt {
 
 struct MeasureInfo {
   std::string name{}, unit{}, help{};
-  bool at_point = false;   // wants `at X Y Z`, a material point by its rest position
-  bool over_nodes = false; // may be narrowed by `where` on nodes
+  bool at_point = false;    // wants `at X Y Z`, a material point by its rest position
+  bool over_nodes = false;  // may be narrowed by `where` on nodes
 };
 /// In order of name.
 [[nodiscard]] const std::vector<MeasureInfo>& measure_table();

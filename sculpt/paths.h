@@ -6,8 +6,8 @@
 
 namespace argil::sculpt {
 
-/// The path of `name` beneath `root`. @throws Error (refused) for an absolute name, one that climbs out with "..", or one
-/// whose links lead out; `what` names the root in the message.
+/// The path of `name` beneath `root`. @throws Error (refused) for an absolute name, one that climbs out with "..",
+/// or one whose links lead out; `what` names the root in the message.
 [[nodiscard]] std::filesystem::path path_beneath(const std::filesystem::path& root, const std::string& name,
                                                  const std::string& what);
 

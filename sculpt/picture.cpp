@@ -76,7 +76,8 @@ Scene net_scene(const Document& document, const PictureRequest& request) {
   const RegularNets nets = regular_nets(solid, classify_cells(solid));
   const auto found = std::lower_bound(nets.cells.begin(), nets.cells.end(), cell);
   if (found == nets.cells.end() || *found != cell)
-    throw Error(ErrorCode::bad_input, fmt::format("cell {} is not regular, it has no 4×4×4 net; choose another", cell.value));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("cell {} is not regular, it has no 4×4×4 net; choose another", cell.value));
   const auto& net = nets.nodes[static_cast<std::size_t>(found - nets.cells.begin())];
   const Eigen::Matrix3Xd positions = apply(document.refinement().stencils.back(), document.positions());
   const Eigen::Matrix3Xd phantoms = apply(nets.phantoms, positions);
@@ -119,7 +120,8 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
       document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
   Scene scene;
   if (request.style == PictureStyle::solid) {
-    scene.surface = request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
+    scene.surface =
+        request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
     if (request.control_wire) keep_wire_between(scene.surface, control_cells(document.refinement()));
   } else {
     scene.surface = cells_surface(solid, positions);
@@ -129,7 +131,8 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   }
   if (!request.field.empty()) {
     const ShownField field = shown_field(document, request.field);
-    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title, field.unit);
+    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title,
+               field.unit);
     if (request.range) {
       scene.legend->low = (*request.range)[0];
       scene.legend->high = (*request.range)[1];

@@ -17,15 +17,15 @@ enum class PictureStyle {
 };
 
 struct PictureRequest {
-  std::string field;                       // empty: clay
+  std::string field;  // empty: clay
   std::optional<std::array<double, 2>> range;
   std::optional<ClipPlane> clip;
   PictureStyle style = PictureStyle::solid;
   bool cage = false;
-  bool control_wire = false;               // outlines of the control cells only, on the refined surface
-  bool marks = true;                       // loads as arrows, pins as marks
-  std::optional<std::uint32_t> net_cell;   // instead of the solid: this cell of the finest level in its 4×4×4 net
-  int net_steps = 4;                       // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
+  bool control_wire = false;              // outlines of the control cells only, on the refined surface
+  bool marks = true;                      // loads as arrows, pins as marks
+  std::optional<std::uint32_t> net_cell;  // instead of the solid: this cell of the finest level in its 4×4×4 net
+  int net_steps = 4;                      // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
 };
 
 /// @throws Error (bad_input) for a cell that is not there or has no net.

@@ -17,14 +17,15 @@ using namespace subdiv;
 enum Slot : std::size_t { k_x, k_px = 3, k_boundary = 6, k_valence, k_fields, k_slots = k_fields + k_field_count };
 
 bool needs_fields(const Expression* where) {
-  return where && std::any_of(where->variables().begin(), where->variables().end(), [](std::size_t s) { return s >= k_fields; });
+  return where && std::any_of(where->variables().begin(), where->variables().end(),
+                              [](std::size_t s) { return s >= k_fields; });
 }
 
 // Answers an expression for vertices given by index into the arrays, and for the mean of several.
 class Asker {
  public:
-  Asker(const Expression& expression, const Eigen::Matrix3Xd& rest, const Eigen::Matrix3Xd& present, const Fields* fields,
-        const std::vector<std::uint32_t>* node_from_vertex)
+  Asker(const Expression& expression, const Eigen::Matrix3Xd& rest, const Eigen::Matrix3Xd& present,
+        const Fields* fields, const std::vector<std::uint32_t>* node_from_vertex)
       : expression_(expression), rest_(rest), present_(present), fields_(fields), nodes_(node_from_vertex) {}
 
   double value(std::span<const VertexId> vertices, bool boundary, std::size_t valence) const {
@@ -73,7 +74,8 @@ std::vector<std::uint32_t> matching_nodes(const Document& document, const Expres
   const Eigen::Matrix3Xd present = apply(refined.stencils.back(), document.positions());
   const Asker asker(*where, rest, present, document.state().fields.get(), nullptr);
   for (const VertexId v : finest.vertices())
-    if (asker.holds({&v, 1}, finest.is_boundary(v), finest.vertex_valence(v), Asked::centroid)) ids.push_back(v.value);
+    if (asker.holds({&v, 1}, finest.is_boundary(v), finest.vertex_valence(v), Asked::centroid))
+      ids.push_back(v.value);
   return ids;
 }
 
@@ -99,8 +101,8 @@ std::vector<std::uint32_t> node_from_control_vertex(const Document& document) {
   return node;
 }
 
-std::vector<std::uint32_t> matching(const Document& document, ElementType type, const Expression* where, bool interior,
-                                    Asked asked) {
+std::vector<std::uint32_t> matching(const Document& document, ElementType type, const Expression* where,
+                                    bool interior, Asked asked) {
   if (type == ElementType::nodes) return matching_nodes(document, where);
   const Solid& solid = document.solid();
   std::vector<std::uint32_t> nodes;
@@ -115,7 +117,8 @@ std::vector<std::uint32_t> matching(const Document& document, ElementType type, 
   };
   switch (type) {
     case ElementType::vertices:
-      for (const VertexId v : solid.vertices()) take(v.value, {&v, 1}, solid.is_boundary(v), solid.vertex_valence(v));
+      for (const VertexId v : solid.vertices())
+        take(v.value, {&v, 1}, solid.is_boundary(v), solid.vertex_valence(v));
       break;
     case ElementType::edges:
       for (const EdgeId e : solid.edges())
@@ -130,11 +133,13 @@ std::vector<std::uint32_t> matching(const Document& document, ElementType type, 
       for (const CellId c : solid.cells()) {
         const auto vertices = cell_vertices(solid, c);
         const auto uses = solid.cell_face_uses(c);
-        const bool boundary = std::any_of(uses.begin(), uses.end(), [&](FaceUseId u) { return solid.is_boundary(face_of(u)); });
+        const bool boundary =
+            std::any_of(uses.begin(), uses.end(), [&](FaceUseId u) { return solid.is_boundary(face_of(u)); });
         take(c.value, vertices, boundary, uses.size());
       }
       break;
-    case ElementType::nodes: break;
+    case ElementType::nodes:
+      break;
   }
   return ids;
 }
@@ -152,8 +157,10 @@ Eigen::VectorXd values_at_nodes(const Document& document, const Expression& form
     const double value = asker.value({&v, 1}, finest.is_boundary(v), finest.vertex_valence(v));
     if (!std::isfinite(value)) {
       const auto at = rest.col(static_cast<Eigen::Index>(v.index()));
-      throw Error(ErrorCode::bad_input, fmt::format("the formula is not finite at ({:g}, {:g}, {:g}); keep it away from "
-                                                    "divisions by zero there", at[0], at[1], at[2]));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the formula is not finite at ({:g}, {:g}, {:g}); keep it away from "
+                              "divisions by zero there",
+                              at[0], at[1], at[2]));
     }
     values[static_cast<Eigen::Index>(i)] = value;
   }
@@ -165,7 +172,9 @@ std::vector<std::uint32_t> vertices_of(const Document& document, const Selection
   std::vector<std::uint32_t> ids;
   for (const std::uint32_t id : selection.ids) {
     switch (selection.type) {
-      case ElementType::vertices: ids.push_back(id); break;
+      case ElementType::vertices:
+        ids.push_back(id);
+        break;
       case ElementType::edges:
         for (const VertexId v : solid.edge_vertices(EdgeId{id})) ids.push_back(v.value);
         break;
@@ -175,7 +184,8 @@ std::vector<std::uint32_t> vertices_of(const Document& document, const Selection
       case ElementType::cells:
         for (const VertexId v : cell_vertices(solid, CellId{id})) ids.push_back(v.value);
         break;
-      case ElementType::nodes: break;
+      case ElementType::nodes:
+        break;
     }
   }
   std::sort(ids.begin(), ids.end());

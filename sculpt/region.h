@@ -1,6 +1,6 @@
 #pragma once
-// Which elements a `where` means (SESSION.md, "Grammar"): vertices, edges, faces and cells of the control solid, asked at
-// their centroid or at their vertices, and nodes, the vertices of the finest level.
+// Which elements a `where` means (SESSION.md, "Grammar"): vertices, edges, faces and cells of the control solid,
+// asked at their centroid or at their vertices, and nodes, the vertices of the finest level.
 
 #include <cstdint>
 #include <string>
@@ -16,10 +16,11 @@ namespace argil::sculpt {
 
 enum class Asked { centroid, any_vertex, all_vertices };
 
-/// Ids of the elements that fit, ascending; without an expression all of them. Faces are boundary faces unless `interior`.
-/// Cost O(elements · expression).
-[[nodiscard]] std::vector<std::uint32_t> matching(const Document& document, ElementType type, const Expression* where,
-                                                 bool interior = false, Asked asked = Asked::centroid);
+/// Ids of the elements that fit, ascending; without an expression all of them. Faces are boundary faces unless
+/// `interior`. Cost O(elements · expression).
+[[nodiscard]] std::vector<std::uint32_t> matching(const Document& document, ElementType type,
+                                                  const Expression* where, bool interior = false,
+                                                  Asked asked = Asked::centroid);
 
 /// A formula's value at each of `nodes`. @throws Error (bad_input) at the first node where it is not finite.
 [[nodiscard]] Eigen::VectorXd values_at_nodes(const Document& document, const Expression& formula,

@@ -15,20 +15,23 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
   std::error_code failure;
   std::filesystem::create_directories(options_.out, failure);
   if (failure)
-    throw Error(ErrorCode::bad_input, fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
-                                                  options_.out.string(), failure.message()));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
+                            options_.out.string(), failure.message()));
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
     journal_.open(journal_path_, std::ios::trunc);
     if (!journal_)
-      throw Error(ErrorCode::bad_input, fmt::format("the journal '{}' cannot be written; choose another folder with --out",
-                                                    journal_path_.string()));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the journal '{}' cannot be written; choose another folder with --out",
+                              journal_path_.string()));
     journal_ << io::k_session_header << std::endl;
   }
   if (!options_.hash_trace.empty()) {
     trace_.open(options_.hash_trace, std::ios::trunc);
     if (!trace_)
-      throw Error(ErrorCode::bad_input, fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
   }
 }
 
@@ -65,7 +68,8 @@ void Session::run_line(const io::SessionLine& line) {
   for (const char* setting : {"space", "model", "integrator"}) {
     const auto found = options_.overrides.find(setting);
     if (found != options_.overrides.end())
-      execute(io::parse_session_line(std::string(setting) + " " + found->second, std::string("--set ") + setting, 1));
+      execute(
+          io::parse_session_line(std::string(setting) + " " + found->second, std::string("--set ") + setting, 1));
   }
 }
 
@@ -107,8 +111,9 @@ void Session::change(State next, subdiv::Delta delta) {
 
 void Session::undo(long count) {
   if (static_cast<std::size_t>(count) > done_.size())
-    throw Error(ErrorCode::bad_input,
-                fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
   for (long i = 0; i < count; ++i) {
     Done& last = done_.back();
     if (!last.delta.empty()) subdiv::undo(*last.after.solid, last.delta);
@@ -121,7 +126,8 @@ void Session::undo(long count) {
 void Session::redo(long count) {
   if (static_cast<std::size_t>(count) > undone_.size())
     throw Error(ErrorCode::bad_input,
-                fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one", undone_.size(), count));
+                fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one",
+                            undone_.size(), count));
   for (long i = 0; i < count; ++i) {
     Done& next = undone_.back();
     if (!next.delta.empty()) subdiv::redo(*next.after.solid, next.delta);
@@ -140,8 +146,8 @@ std::filesystem::path Session::path_to_write(const std::string& name) const {
   std::error_code failure;
   std::filesystem::create_directories(path.parent_path(), failure);
   if (failure)
-    throw Error(ErrorCode::bad_input, fmt::format("the folder of '{}' cannot be made ({}); choose another name", name,
-                                                  failure.message()));
+    throw Error(ErrorCode::bad_input, fmt::format("the folder of '{}' cannot be made ({}); choose another name",
+                                                  name, failure.message()));
   return path;
 }
 
@@ -164,8 +170,9 @@ void Session::require_steps(double count) const {
   const double taken = static_cast<double>(steps_.size());
   if (options_.until_step >= 0) count = std::min(count, static_cast<double>(options_.until_step) - taken);
   if (taken + count > static_cast<double>(options_.limits.steps))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("{:.0f} steps after {:.0f} are more than {}; raise --max-steps", count,
-                                                       taken, options_.limits.steps));
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("{:.0f} steps after {:.0f} are more than {}; raise --max-steps", count, taken,
+                            options_.limits.steps));
 }
 
 bool Session::stop_requested() const {

@@ -1,6 +1,6 @@
 #pragma once
-// A session: a document, its history, its journal, and the world outside that commands may reach (folders, printing, the
-// renderer, progress). The same object runs a file, a line typed by hand, and a test.
+// A session: a document, its history, its journal, and the world outside that commands may reach (folders,
+// printing, the renderer, progress). The same object runs a file, a line typed by hand, and a test.
 
 #include <cstdio>
 #include <filesystem>
@@ -34,16 +34,16 @@ struct FailedExpectation {
 };
 
 struct SessionOptions {
-  std::filesystem::path read_root = ".";   // files are read beneath it
-  std::filesystem::path out = "out";       // and written beneath this
-  std::filesystem::path hash_trace;        // empty: none
+  std::filesystem::path read_root = ".";         // files are read beneath it
+  std::filesystem::path out = "out";             // and written beneath this
+  std::filesystem::path hash_trace;              // empty: none
   std::map<std::string, std::string> overrides;  // command → arguments, `--set space=cubic`
-  long until_step = -1;                    // stop after so many simulation steps; −1: run all
+  long until_step = -1;                          // stop after so many simulation steps; −1: run all
   bool write_journal = true;
   Limits limits;
-  Renderer* renderer = nullptr;            // null: pictures are skipped, and said so
+  Renderer* renderer = nullptr;  // null: pictures are skipped, and said so
   fem::Clock clock = nullptr;
-  std::function<void(const std::string&)> print;                        // messages for the user
+  std::function<void(const std::string&)> print;  // messages for the user
   std::function<void(double fraction, const std::string& what)> progress;
 };
 
@@ -52,7 +52,8 @@ class Session {
   explicit Session(SessionOptions options);
   ~Session();
 
-  /// Runs a whole file. Stops at the first Error, which is thrown on with its place; failed expectations are collected.
+  /// Runs a whole file. Stops at the first Error, which is thrown on with its place; failed expectations are
+  /// collected.
   void run_text(const std::string& text, const std::string& file_name);
   /// Runs one line. A command that throws leaves the document as it was.
   void run_line(const io::SessionLine& line);
@@ -73,7 +74,8 @@ class Session {
   std::filesystem::path path_to_write(const std::string& name) const;
   void print(const std::string& message) const;
   void progress(double fraction, const std::string& what) const;
-  /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error (limit_exceeded).
+  /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
+  /// (limit_exceeded).
   void require_steps(double count) const;
   /// Called for every simulation step: counts and traces.
   void step_done(const StepRecord& record);

@@ -40,11 +40,14 @@ std::string summary_json(const Session& session, const std::string& name, int th
                      {"regular_published", d.cells.regular_published},
                      {"extraordinary", d.cells.extraordinary},
                      {"irregular", d.cells.irregular}};
-    json["elements"] = {{"cubic", d.elements.cubic}, {"linear", d.elements.linear}, {"pyramid", d.elements.pyramid}};
+    json["elements"] = {
+        {"cubic", d.elements.cubic}, {"linear", d.elements.linear}, {"pyramid", d.elements.pyramid}};
     json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
-    for (const char* measured : {"unknowns", "energy", "volume", "mass"}) json[measured] = measure(document, {.name = measured});
+    for (const char* measured : {"unknowns", "energy", "volume", "mass"})
+      json[measured] = measure(document, {.name = measured});
   } catch (const Error& error) {
-    const fem::CellCounts cells = document.empty() ? fem::CellCounts{} : fem::count_cells(document.refinement().solid());
+    const fem::CellCounts cells =
+        document.empty() ? fem::CellCounts{} : fem::count_cells(document.refinement().solid());
     json["cells"] = {{"regular", cells.regular},
                      {"regular_published", cells.regular_published},
                      {"extraordinary", cells.extraordinary},
@@ -65,14 +68,15 @@ std::string summary_json(const Session& session, const std::string& name, int th
     sum.newton_iterations += step.newton_iterations;
   }
   const double n = std::max<double>(1, static_cast<double>(ms.size()));
-  json["ms_per_step"] = {{"median", quantile(ms, 0.5)},
-                         {"p99", quantile(ms, 0.99)},
-                         {"mean", sum.ms / n},
-                         {"forces", sum.ms_forces / n},
-                         {"tangent", sum.ms_tangent / n},
-                         {"solve", sum.ms_solve / n},
-                         {"line_search", sum.ms_line_search / n},
-                         {"other", (sum.ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
+  json["ms_per_step"] = {
+      {"median", quantile(ms, 0.5)},
+      {"p99", quantile(ms, 0.99)},
+      {"mean", sum.ms / n},
+      {"forces", sum.ms_forces / n},
+      {"tangent", sum.ms_tangent / n},
+      {"solve", sum.ms_solve / n},
+      {"line_search", sum.ms_line_search / n},
+      {"other", (sum.ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
   json["solver_iterations"] = sum.linear_iterations;
   json["newton_iterations"] = sum.newton_iterations;
   json["threads"] = threads;

@@ -25,7 +25,8 @@ double hexahedron(const Solid& solid, const Eigen::Matrix3Xd& positions, CellId 
   const ElementKind& kind = trilinear_hexahedron();
   Eigen::Matrix<double, 3, 8> nodes;
   const auto box = box_vertices(solid, cell);
-  for (std::size_t a = 0; a < 8; ++a) nodes.col(static_cast<Eigen::Index>(a)) = positions.col(static_cast<Eigen::Index>(box[a].index()));
+  for (std::size_t a = 0; a < 8; ++a)
+    nodes.col(static_cast<Eigen::Index>(a)) = positions.col(static_cast<Eigen::Index>(box[a].index()));
   double smallest = std::numeric_limits<double>::max(), sum = 0;
   for (int q = 0; q < kind.point_count; ++q) {
     Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
@@ -41,7 +42,9 @@ double hexahedron(const Solid& solid, const Eigen::Matrix3Xd& positions, CellId 
 }
 
 double polyhedron(const Solid& solid, const Eigen::Matrix3Xd& positions, CellId cell) {
-  const auto at = [&](VertexId v) -> Eigen::Vector3d { return positions.col(static_cast<Eigen::Index>(v.index())); };
+  const auto at = [&](VertexId v) -> Eigen::Vector3d {
+    return positions.col(static_cast<Eigen::Index>(v.index()));
+  };
   const auto vertices = cell_vertices(solid, cell);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const VertexId v : vertices) middle += at(v) / static_cast<double>(vertices.size());
@@ -52,7 +55,8 @@ double polyhedron(const Solid& solid, const Eigen::Matrix3Xd& positions, CellId 
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (const VertexId v : loop) centre += at(v) / static_cast<double>(loop.size());
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const double volume = (at(loop[i]) - middle).cross(at(loop[(i + 1) % loop.size()]) - middle).dot(centre - middle);
+      const double volume =
+          (at(loop[i]) - middle).cross(at(loop[(i + 1) % loop.size()]) - middle).dot(centre - middle);
       smallest = std::min(smallest, volume);
       sum += volume;
       ++count;

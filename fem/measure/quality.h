@@ -11,9 +11,9 @@ struct WorstJacobian {
   double value = 1;  // 1 where a cell is a parallelepiped or tetrahedron, ≤ 0 where it is inverted
   subdiv::CellId cell;
 };
-/// The smallest Jacobian at a quadrature point over the cell's mean one: 2×2×2 Gauss in hexahedra; the others are cut
-/// into tetrahedra from the middle over their fanned faces, and a tetrahedron counts against the mean of its cell (of one
-/// that is inverted as a whole, −1). Cost O(corners).
+/// The smallest Jacobian at a quadrature point over the cell's mean one: 2×2×2 Gauss in hexahedra; the others are
+/// cut into tetrahedra from the middle over their fanned faces, and a tetrahedron counts against the mean of its
+/// cell (of one that is inverted as a whole, −1). Cost O(corners).
 [[nodiscard]] WorstJacobian min_relative_jacobian(const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions);
 
 }  // namespace argil::fem

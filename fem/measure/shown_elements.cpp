@@ -13,8 +13,8 @@ namespace {
 
 using namespace subdiv;
 
-// Material at the points, interpolated from values at the nodes; an apex takes the mean of its base, which is as far as
-// pictures need it.
+// Material at the points, interpolated from values at the nodes; an apex takes the mean of its base, which is as
+// far as pictures need it.
 void set_lame(ElementBlock& block, const NodalFields& fields, std::size_t vertex_count) {
   const auto nodes = static_cast<std::size_t>(block.kind->node_count);
   for (std::size_t e = 0; e < block.element_count(); ++e)

@@ -1,7 +1,8 @@
 #pragma once
-// Strain and stress as pictures, files and expectations show them: of trilinear elements (pyramids in irregular cells)
-// between the vertices of the finest level where the space shows them. In the default space these are the elements that
-// are integrated; in cubic space they sample the tricubic ones, with an error that falls with the square of the cell.
+// Strain and stress as pictures, files and expectations show them: of trilinear elements (pyramids in irregular
+// cells) between the vertices of the finest level where the space shows them. In the default space these are the
+// elements that are integrated; in cubic space they sample the tricubic ones, with an error that falls with the
+// square of the cell.
 
 #include <Eigen/Core>
 #include <vector>

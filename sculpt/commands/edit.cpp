@@ -17,11 +17,16 @@ using namespace subdiv;
 
 bool is_live(const Solid& solid, ElementType type, std::uint32_t id) {
   switch (type) {
-    case ElementType::vertices: return solid.is_live(VertexId{id});
-    case ElementType::edges: return solid.is_live(EdgeId{id});
-    case ElementType::faces: return solid.is_live(FaceId{id});
-    case ElementType::cells: return solid.is_live(CellId{id});
-    case ElementType::nodes: return false;
+    case ElementType::vertices:
+      return solid.is_live(VertexId{id});
+    case ElementType::edges:
+      return solid.is_live(EdgeId{id});
+    case ElementType::faces:
+      return solid.is_live(FaceId{id});
+    case ElementType::cells:
+      return solid.is_live(CellId{id});
+    case ElementType::nodes:
+      return false;
   }
   return false;
 }
@@ -65,16 +70,17 @@ Selection acted_on(const Session& session, const Arguments& arguments, std::span
   } else {
     selection = *document.state().selection;
     if (std::find(types.begin(), types.end(), selection.type) == types.end())
-      throw Error(ErrorCode::bad_input, fmt::format("this acts on {}, and what is selected are {}; select {} first", wanted,
-                                                    word(selection.type), wanted));
+      throw Error(ErrorCode::bad_input, fmt::format("this acts on {}, and what is selected are {}; select {} first",
+                                                    wanted, word(selection.type), wanted));
   }
   if (selection.ids.empty())
     throw Error(ErrorCode::bad_input, fmt::format("no {} fit; change the condition or the selection", wanted));
   return selection;
 }
 
-void edit_topology(Session& session,
-                   const std::function<void(Transaction&, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&)>& edit) {
+void edit_topology(
+    Session& session,
+    const std::function<void(Transaction&, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&)>& edit) {
   require_solid(session);
   Document& document = session.document();
   State next = document.state();
@@ -86,10 +92,13 @@ void edit_topology(Session& session,
   Selection selected = *next.selection;
   edit(transaction, rest, present, selected);
   const Solid& solid = *next.solid;
-  if (solid.cell_count() == 0) throw Error(ErrorCode::bad_topology, "this would leave no cell; a solid has at least one");
+  if (solid.cell_count() == 0)
+    throw Error(ErrorCode::bad_topology, "this would leave no cell; a solid has at least one");
   if (refined_cell_count(solid, next.level) > document.limits.cells)
-    throw Error(ErrorCode::limit_exceeded, fmt::format("this would make more than {} cells at level {}; lower the level or "
-                                                       "raise --max-cells", document.limits.cells, next.level));
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("this would make more than {} cells at level {}; lower the level or "
+                            "raise --max-cells",
+                            document.limits.cells, next.level));
   const Refinement after = refine_to_level(solid, next.level);
   const std::vector<std::uint32_t> node_map = nodes_after_edit(before, after);
   next.fields = fields_after_edit(*next.fields, node_map, after);
@@ -108,13 +117,15 @@ void edit_topology(Session& session,
   std::erase_if(pins->control_points, [&](std::uint32_t v) { return !solid.is_live(VertexId{v}); });
   for (SoftPin& pin : pins->nodes) pin.node = pin.node < node_map.size() ? node_map[pin.node] : k_no_node;
   std::erase_if(pins->nodes, [](const SoftPin& pin) { return pin.node == k_no_node; });
-  std::sort(pins->nodes.begin(), pins->nodes.end(), [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
+  std::sort(pins->nodes.begin(), pins->nodes.end(),
+            [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
   next.pins = pins;
 
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
   for (AppliedForce& force : loads->forces) {
     const bool spread = !force.faces.empty();
-    std::erase_if(force.faces, [&](std::uint32_t f) { return !solid.is_live(FaceId{f}) || !solid.is_boundary(FaceId{f}); });
+    std::erase_if(force.faces,
+                  [&](std::uint32_t f) { return !solid.is_live(FaceId{f}) || !solid.is_boundary(FaceId{f}); });
     if (spread && force.faces.empty()) {
       session.print("a force is gone with the faces that it acted on");
       force.force.setConstant(std::nan(""));

@@ -15,13 +15,15 @@ namespace argil::sculpt {
 /// @throws Error (bad_input) if there is no solid yet.
 void require_solid(const Session& session);
 
-/// The selection that a command acts on: `where` if it has one, else what is selected, which must be of one of the types.
+/// The selection that a command acts on: `where` if it has one, else what is selected, which must be of one of the
+/// types.
 /// @throws Error (bad_input) if it is of another type or empty.
-[[nodiscard]] Selection acted_on(const Session& session, const Arguments& arguments, std::span<const ElementType> types);
+[[nodiscard]] Selection acted_on(const Session& session, const Arguments& arguments,
+                                 std::span<const ElementType> types);
 
-/// Runs a topology edit: `edit` changes the solid through the transaction and the positions in `next` (rest and present
-/// positions grow with the vertices). Then fields, pins, loads and sets follow, and everything must still refine; if
-/// anything throws, the solid is as it was.
+/// Runs a topology edit: `edit` changes the solid through the transaction and the positions in `next` (rest and
+/// present positions grow with the vertices). Then fields, pins, loads and sets follow, and everything must still
+/// refine; if anything throws, the solid is as it was.
 void edit_topology(Session& session,
                    const std::function<void(subdiv::Transaction&, Eigen::Matrix3Xd& rest, Eigen::Matrix3Xd& present,
                                             Selection& selection)>& edit);

@@ -9,15 +9,20 @@ namespace {
 
 long wanted(const Arguments& arguments, std::size_t depth) {
   if (!arguments.has("all")) return arguments.integer("count", 1);
-  if (arguments.has("count")) throw Error(ErrorCode::bad_input, "a count and all exclude each other; leave one out");
+  if (arguments.has("count"))
+    throw Error(ErrorCode::bad_input, "a count and all exclude each other; leave one out");
   return static_cast<long>(depth);
 }
 
 }  // namespace
 
 std::vector<Command> history_commands() {
-  const Parameter count{.name = "count", .type = ArgumentType::integer, .help = "how many commands", .positional = true,
-                        .low = 1, .high = 1e6};
+  const Parameter count{.name = "count",
+                        .type = ArgumentType::integer,
+                        .help = "how many commands",
+                        .positional = true,
+                        .low = 1,
+                        .high = 1e6};
   const Parameter all{.name = "all", .help = "every one", .flag = true};
   return {
       {.name = "undo",
@@ -25,13 +30,15 @@ std::vector<Command> history_commands() {
        .parameters = {count, all},
        .example = "undo 2",
        .effect = Effect::history,
-       .run = [](Session& session, const Arguments& arguments) { session.undo(wanted(arguments, session.undo_depth())); }},
+       .run = [](Session& session,
+                 const Arguments& arguments) { session.undo(wanted(arguments, session.undo_depth())); }},
       {.name = "redo",
        .summary = "Brings back what undo took.",
        .parameters = {count, all},
        .example = "redo 2",
        .effect = Effect::history,
-       .run = [](Session& session, const Arguments& arguments) { session.redo(wanted(arguments, session.redo_depth())); }},
+       .run = [](Session& session,
+                 const Arguments& arguments) { session.redo(wanted(arguments, session.redo_depth())); }},
   };
 }
 

@@ -20,8 +20,8 @@ const FieldInfo& field_info(const Arguments& arguments) {
 
 void check_range(const FieldInfo& info, double value, const std::string& where) {
   if (!(value >= info.low && value <= info.high))
-    throw Error(ErrorCode::bad_input, fmt::format("{} must lie between {:g} and {:g} {}, found {:g}{}", info.word, info.low,
-                                                  info.high, info.unit, value, where));
+    throw Error(ErrorCode::bad_input, fmt::format("{} must lie between {:g} and {:g} {}, found {:g}{}", info.word,
+                                                  info.low, info.high, info.unit, value, where));
 }
 
 // Nodes that a command covers; all without a condition.
@@ -35,7 +35,8 @@ void set_field(Session& session, const Arguments& arguments) {
   require_solid(session);
   const FieldInfo& info = field_info(arguments);
   const Expression& formula = *arguments.expression("value");
-  if (formula.is_boolean()) throw Error(ErrorCode::bad_input, "set wants a number or a formula, and this is a condition");
+  if (formula.is_boolean())
+    throw Error(ErrorCode::bad_input, "set wants a number or a formula, and this is a condition");
   const auto nodes = covered_nodes(session, arguments);
   const Eigen::VectorXd values = values_at_nodes(session.document(), formula, nodes);
   State next = session.document().state();
@@ -54,7 +55,8 @@ void paint(Session& session, const Arguments& arguments) {
   const FieldInfo& info = field_info(arguments);
   const bool scales = arguments.has("scale"), sets = arguments.has("value");
   if (scales == sets)
-    throw Error(ErrorCode::bad_input, "paint wants either `value V` or `scale S`, as in `paint young_modulus scale 10`");
+    throw Error(ErrorCode::bad_input,
+                "paint wants either `value V` or `scale S`, as in `paint young_modulus scale 10`");
   if (arguments.has("at") != arguments.has("radius"))
     throw Error(ErrorCode::bad_input, "a brush wants both `at X Y Z` and `radius R`");
   if (arguments.has("falloff") && !arguments.has("at"))
@@ -70,14 +72,16 @@ void paint(Session& session, const Arguments& arguments) {
   for (const std::uint32_t node : covered_nodes(session, arguments)) {
     double weight = info.name == FieldName::mask ? 1 : 1 - (*fields)[FieldName::mask][node];
     if (arguments.has("at"))
-      weight *= falloff_weight(falloff, (nodes.col(node) - arguments.vector("at")).norm() / arguments.number("radius"));
+      weight *=
+          falloff_weight(falloff, (nodes.col(node) - arguments.vector("at")).norm() / arguments.number("radius"));
     if (weight <= 0) continue;
     ++touched;
     values[node] = scales ? values[node] * std::pow(arguments.number("scale"), weight)
                           : values[node] + weight * (arguments.number("value") - values[node]);
     check_range(info, values[node], fmt::format(" at node {}; use a smaller scale", node));
   }
-  if (touched == 0) throw Error(ErrorCode::bad_input, "the brush touches no node; move it or make its radius larger");
+  if (touched == 0)
+    throw Error(ErrorCode::bad_input, "the brush touches no node; move it or make its radius larger");
   session.print(fmt::format("{} painted on {}", info.word, count_of(touched, ElementType::nodes)));
   next.fields = fields;
   session.change(std::move(next));
@@ -95,35 +99,49 @@ void set_model(Session& session, const Arguments& arguments) {
 std::vector<Command> material_commands() {
   std::vector<std::string> names;
   for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
-  const Parameter field{.name = "field", .type = ArgumentType::word,
+  const Parameter field{.name = "field",
+                        .type = ArgumentType::word,
                         .help = "young_modulus [Pa], poisson_ratio, density [kg/m^3], damping [1/s], mask",
-                        .positional = true, .required = true, .choices = names};
+                        .positional = true,
+                        .required = true,
+                        .choices = names};
   const Parameter where{.name = "where", .type = ArgumentType::expression, .help = "only nodes that fit"};
   return {
       {.name = "set",
        .summary = "Gives a field a number, or a formula of x y z px py pz, boundary, valence and the fields.",
        .parameters = {field,
-                      {.name = "value", .type = ArgumentType::expression, .help = "a number or a formula",
-                       .positional = true, .required = true},
+                      {.name = "value",
+                       .type = ArgumentType::expression,
+                       .help = "a number or a formula",
+                       .positional = true,
+                       .required = true},
                       where},
        .example = "set density 300 + 100*z where z < 0.5",
        .run = set_field},
       {.name = "paint",
-       .summary = "Changes a field on part of the solid, by a condition, a round brush, or both. The mask protects.",
+       .summary =
+           "Changes a field on part of the solid, by a condition, a round brush, or both. The mask protects.",
        .parameters = {field,
                       {.name = "value", .help = "the value to reach"},
                       {.name = "scale", .help = "the factor to multiply by", .low = 1e-9, .high = 1e9},
                       {.name = "at", .help = "middle of the brush", .unit = "m", .count = 3},
                       {.name = "radius", .help = "of the brush", .unit = "m", .low = 1e-12, .high = 1e9},
-                      {.name = "falloff", .type = ArgumentType::word, .help = "towards the rim of the brush",
+                      {.name = "falloff",
+                       .type = ArgumentType::word,
+                       .help = "towards the rim of the brush",
                        .choices = {"smooth", "linear", "constant"}},
                       where},
        .example = "paint young_modulus scale 10 where z < 0",
        .run = paint},
       {.name = "model",
-       .summary = "The force model: corotational (default), or linear elasticity in fixed axes, its reference for small strain.",
-       .parameters = {{.name = "model", .type = ArgumentType::word, .help = "the model", .positional = true,
-                       .required = true, .choices = {"corotational", "linear"}}},
+       .summary = "The force model: corotational (default), or linear elasticity in fixed axes, its reference for "
+                  "small strain.",
+       .parameters = {{.name = "model",
+                       .type = ArgumentType::word,
+                       .help = "the model",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"corotational", "linear"}}},
        .example = "model linear",
        .run = set_model},
   };

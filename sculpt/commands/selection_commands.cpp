@@ -46,8 +46,8 @@ void check_flags(const Arguments& arguments, ElementType type) {
   if ((arguments.has("any") || arguments.has("all")) && !arguments.has("where"))
     throw Error(ErrorCode::bad_input, "any and all say how a condition is asked; add `where …`");
   if (arguments.has("interior") && type != ElementType::faces)
-    throw Error(ErrorCode::bad_input, fmt::format("interior is for faces; {} inside the solid are chosen in any case",
-                                                  word(type)));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("interior is for faces; {} inside the solid are chosen in any case", word(type)));
   if (arguments.has("none"))
     for (const char* other : {"where", "interior", "add", "remove", "angle", "set", "as"})
       if (arguments.has(other))
@@ -69,25 +69,28 @@ void select(Session& session, const Arguments& arguments) {
   const Asked asked = arguments.has("any")   ? Asked::any_vertex
                       : arguments.has("all") ? Asked::all_vertices
                                              : Asked::centroid;
-  selection.ids = matching(document, selection.type, arguments.expression("where"), arguments.has("interior"), asked);
+  selection.ids =
+      matching(document, selection.type, arguments.expression("where"), arguments.has("interior"), asked);
   if (arguments.has("angle")) {
     if (selection.type != ElementType::edges)
       throw Error(ErrorCode::bad_input, "angle is asked of edges; write `select edges angle 30`");
     const double cosine = std::cos(arguments.number("angle") * std::numbers::pi / 180);
     std::erase_if(selection.ids, [&](std::uint32_t id) {
-      return !document.solid().is_boundary(EdgeId{id}) || !bends(document.solid(), document.rest(), EdgeId{id}, cosine);
+      return !document.solid().is_boundary(EdgeId{id}) ||
+             !bends(document.solid(), document.rest(), EdgeId{id}, cosine);
     });
   }
   if (arguments.has("set")) {
     const auto& sets = *document.state().sets;
     const auto found = sets.find(arguments.word("set"));
     if (found == sets.end() || found->second.type != selection.type)
-      throw Error(ErrorCode::not_found, fmt::format("there is no set of {} named '{}'; make one with `select {} … as {}`",
-                                                    word(selection.type), arguments.word("set"), word(selection.type),
-                                                    arguments.word("set")));
+      throw Error(
+          ErrorCode::not_found,
+          fmt::format("there is no set of {} named '{}'; make one with `select {} … as {}`", word(selection.type),
+                      arguments.word("set"), word(selection.type), arguments.word("set")));
     std::vector<std::uint32_t> both;
-    std::set_intersection(selection.ids.begin(), selection.ids.end(), found->second.ids.begin(), found->second.ids.end(),
-                          std::back_inserter(both));
+    std::set_intersection(selection.ids.begin(), selection.ids.end(), found->second.ids.begin(),
+                          found->second.ids.end(), std::back_inserter(both));
     selection.ids = std::move(both);
   }
   const bool combine = arguments.has("add") || arguments.has("remove");
@@ -98,9 +101,11 @@ void select(Session& session, const Arguments& arguments) {
     const auto& old = document.state().selection->ids;
     std::vector<std::uint32_t> result;
     if (arguments.has("add"))
-      std::set_union(old.begin(), old.end(), selection.ids.begin(), selection.ids.end(), std::back_inserter(result));
+      std::set_union(old.begin(), old.end(), selection.ids.begin(), selection.ids.end(),
+                     std::back_inserter(result));
     else
-      std::set_difference(old.begin(), old.end(), selection.ids.begin(), selection.ids.end(), std::back_inserter(result));
+      std::set_difference(old.begin(), old.end(), selection.ids.begin(), selection.ids.end(),
+                          std::back_inserter(result));
     selection.ids = std::move(result);
   }
   if (arguments.has("as")) {
@@ -116,24 +121,33 @@ void select(Session& session, const Arguments& arguments) {
 }  // namespace
 
 std::vector<Command> selection_commands() {
-  return {{.name = "select",
-           .summary = "Chooses vertices, edges, faces or cells of the control solid, or nodes of the finest level.",
-           .parameters =
-               {{.name = "type", .type = ArgumentType::word, .help = "what to choose", .positional = true, .required = true,
-                 .choices = {"vertices", "edges", "faces", "cells", "nodes"}},
-                {.name = "interior", .help = "faces inside the solid as well", .flag = true},
-                {.name = "any", .help = "the condition holds at one of its vertices (else at the centroid)", .flag = true},
-                {.name = "all", .help = "the condition holds at all of its vertices", .flag = true},
-                {.name = "none", .help = "choose nothing", .flag = true},
-                {.name = "add", .help = "add to what is selected", .flag = true},
-                {.name = "remove", .help = "take away from what is selected", .flag = true},
-                {.name = "angle", .help = "boundary edges that bend by more", .unit = "degrees", .low = 0, .high = 180},
-                {.name = "set", .type = ArgumentType::text, .help = "only members of this named set"},
-                {.name = "as", .type = ArgumentType::text, .help = "keep the result as a named set"},
-                {.name = "where", .type = ArgumentType::expression, .help = "a condition on x y z px py pz, boundary, "
-                                                                              "valence and the fields"}},
-           .example = "select faces where z < 0.001 and (x < 0.15 or x > 0.45)",
-           .run = select}};
+  return {
+      {.name = "select",
+       .summary = "Chooses vertices, edges, faces or cells of the control solid, or nodes of the finest level.",
+       .parameters =
+           {{.name = "type",
+             .type = ArgumentType::word,
+             .help = "what to choose",
+             .positional = true,
+             .required = true,
+             .choices = {"vertices", "edges", "faces", "cells", "nodes"}},
+            {.name = "interior", .help = "faces inside the solid as well", .flag = true},
+            {.name = "any",
+             .help = "the condition holds at one of its vertices (else at the centroid)",
+             .flag = true},
+            {.name = "all", .help = "the condition holds at all of its vertices", .flag = true},
+            {.name = "none", .help = "choose nothing", .flag = true},
+            {.name = "add", .help = "add to what is selected", .flag = true},
+            {.name = "remove", .help = "take away from what is selected", .flag = true},
+            {.name = "angle", .help = "boundary edges that bend by more", .unit = "degrees", .low = 0, .high = 180},
+            {.name = "set", .type = ArgumentType::text, .help = "only members of this named set"},
+            {.name = "as", .type = ArgumentType::text, .help = "keep the result as a named set"},
+            {.name = "where",
+             .type = ArgumentType::expression,
+             .help = "a condition on x y z px py pz, boundary, "
+                     "valence and the fields"}},
+       .example = "select faces where z < 0.001 and (x < 0.15 or x > 0.45)",
+       .run = select}};
 }
 
 }  // namespace argil::sculpt

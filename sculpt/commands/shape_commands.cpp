@@ -48,11 +48,15 @@ constexpr double k_bytes_per_cell = 2000;
 void check_cells(const Session& session, double cells) {
   const Limits& limits = session.options().limits;
   if (cells > static_cast<double>(limits.cells))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("this makes {:.0f} cells, more than {}; lower the level or the counts, "
-                                                       "or raise --max-cells", cells, limits.cells));
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("this makes {:.0f} cells, more than {}; lower the level or the counts, "
+                            "or raise --max-cells",
+                            cells, limits.cells));
   if (k_bytes_per_cell * cells > static_cast<double>(limits.memory))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("{:.0f} cells would need about {:.2g} GB; lower the level or the counts, "
-                                                       "or raise --max-memory", cells, 1e-9 * k_bytes_per_cell * cells));
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("{:.0f} cells would need about {:.2g} GB; lower the level or the counts, "
+                            "or raise --max-memory",
+                            cells, 1e-9 * k_bytes_per_cell * cells));
 }
 
 void new_solid(Session& session, const Arguments& arguments) {
@@ -65,7 +69,8 @@ void new_solid(Session& session, const Arguments& arguments) {
     check_cells(session, double(n[0]) * n[1] * n[2]);
     built = box_grid(n[0], n[1], n[2], size);
   } else {
-    if (arguments.has("nx")) throw Error(ErrorCode::bad_input, fmt::format("a {} has no counts; only a box has", shape));
+    if (arguments.has("nx"))
+      throw Error(ErrorCode::bad_input, fmt::format("a {} has no counts; only a box has", shape));
     built = shape == "tetrahedron" ? tetrahedron(size) : shape == "wedge" ? wedge(size) : pyramid(size);
   }
   built.positions.colwise() += arguments.vector("at", Eigen::Vector3d::Zero());
@@ -87,8 +92,9 @@ void open(Session& session, const Arguments& arguments) {
       for (std::size_t v = 0; v < point_from_vertex.size(); ++v) {
         const double value = held.values[point_from_vertex[v]];
         if (!(value >= info.low && value <= info.high))
-          throw Error(ErrorCode::bad_input, fmt::format("{} of point {} is {:g}; it must lie between {:g} and {:g}", info.word,
-                                                        point_from_vertex[v], value, info.low, info.high));
+          throw Error(ErrorCode::bad_input,
+                      fmt::format("{} of point {} is {:g}; it must lie between {:g} and {:g}", info.word,
+                                  point_from_vertex[v], value, info.low, info.high));
         (*fields)[info.name][static_cast<Eigen::Index>(v)] = value;
       }
     }
@@ -98,7 +104,8 @@ void open(Session& session, const Arguments& arguments) {
 }
 
 // The area-weighted mean of the outward normals of some boundary faces.
-Eigen::Vector3d mean_normal(const Solid& solid, const Eigen::Matrix3Xd& positions, const std::vector<std::uint32_t>& faces) {
+Eigen::Vector3d mean_normal(const Solid& solid, const Eigen::Matrix3Xd& positions,
+                            const std::vector<std::uint32_t>& faces) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const std::uint32_t id : faces) {
     const auto loop = use_vertices(solid, solid.boundary_use(FaceId{id}));
@@ -111,8 +118,8 @@ Eigen::Vector3d mean_normal(const Solid& solid, const Eigen::Matrix3Xd& position
   return sum.normalized();
 }
 
-// For every vertex of a region the middle of its patch, the faces connected through shared vertices: four legs that are
-// extruded together taper each about its own axis.
+// For every vertex of a region the middle of its patch, the faces connected through shared vertices: four legs that
+// are extruded together taper each about its own axis.
 std::map<VertexId, Eigen::Vector3d> patch_middles(const Solid& solid, const std::vector<FaceId>& faces,
                                                   const Eigen::Matrix3Xd& positions) {
   std::map<VertexId, VertexId> parent;
@@ -151,7 +158,8 @@ void extrude_faces(Session& session, const Arguments& arguments) {
   std::vector<FaceId> faces;
   for (const std::uint32_t id : selection.ids) {
     if (!session.document().solid().is_boundary(FaceId{id}))
-      throw Error(ErrorCode::bad_input, fmt::format("face {} is inside the solid; only boundary faces extrude", id));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("face {} is inside the solid; only boundary faces extrude", id));
     faces.emplace_back(id);
   }
   edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd& rest, Eigen::Matrix3Xd& present,
@@ -169,7 +177,8 @@ void extrude_faces(Session& session, const Arguments& arguments) {
       const auto source = static_cast<Eigen::Index>(grown.source_of_new[i].index());
       const auto made = static_cast<Eigen::Index>(grown.new_vertices[i].index());
       const double part = static_cast<double>(grown.step_of_new[i]) / steps;
-      const Eigen::Vector3d offset = part * shift + part * (scale - 1) * (rest.col(source) - middle.at(grown.source_of_new[i]));
+      const Eigen::Vector3d offset =
+          part * shift + part * (scale - 1) * (rest.col(source) - middle.at(grown.source_of_new[i]));
       rest.col(made) = rest.col(source) + offset;
       present.col(made) = present.col(source) + offset;
     }
@@ -188,7 +197,8 @@ void raise_peaks(Session& session, const Arguments& arguments) {
       const Solid& solid = transaction.solid();
       const FaceId face{id};
       if (!solid.is_boundary(face))
-        throw Error(ErrorCode::bad_input, fmt::format("face {} is inside the solid; only boundary faces grow a peak", id));
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("face {} is inside the solid; only boundary faces grow a peak", id));
       const std::vector<VertexId> loop = use_vertices(solid, solid.boundary_use(face));
       Eigen::Vector3d centre_rest = Eigen::Vector3d::Zero(), centre_present = Eigen::Vector3d::Zero();
       for (const VertexId v : loop) {
@@ -217,7 +227,8 @@ void remove_cells(Session& session, const Arguments& arguments) {
 }
 
 void move(Session& session, const Arguments& arguments) {
-  constexpr ElementType movable[] = {ElementType::vertices, ElementType::edges, ElementType::faces, ElementType::cells};
+  constexpr ElementType movable[] = {ElementType::vertices, ElementType::edges, ElementType::faces,
+                                     ElementType::cells};
   const Selection selection = acted_on(session, arguments, movable);
   const Eigen::Vector3d shift = arguments.vector("by");
   State next = session.document().state();
@@ -268,7 +279,8 @@ void set_level(Session& session, const Arguments& arguments) {
   auto pins = std::make_shared<Pins>(*next.pins);
   for (SoftPin& pin : pins->nodes) pin.node = node_map[pin.node];
   const auto lost = std::erase_if(pins->nodes, [](const SoftPin& pin) { return pin.node == k_no_node; });
-  if (lost > 0) session.print(fmt::format("{} pinned nodes do not exist at level {} and are free now", lost, level));
+  if (lost > 0)
+    session.print(fmt::format("{} pinned nodes do not exist at level {} and are free now", lost, level));
   next.pins = pins;
   const auto carry = [&](const Selection& selection) {
     Selection result = selection;
@@ -298,80 +310,150 @@ void set_space(Session& session, const Arguments& arguments) {
 }  // namespace
 
 std::vector<Command> shape_commands() {
-  const Parameter where_faces{.name = "where", .type = ArgumentType::expression,
-                              .help = "the faces, by a condition; else those selected"};
+  const Parameter where_faces{
+      .name = "where", .type = ArgumentType::expression, .help = "the faces, by a condition; else those selected"};
   return {
       {.name = "new",
-       .summary = "Begins a new solid from a base shape; its lowest corner stands at the origin unless `at` says otherwise.",
-       .parameters = {{.name = "shape", .type = ArgumentType::word, .help = "what to begin with", .positional = true,
-                       .required = true, .choices = {"box", "tetrahedron", "wedge", "pyramid"}},
-                      {.name = "nx", .type = ArgumentType::integer, .help = "cells of a box along x", .positional = true,
-                       .low = 1, .high = 1000},
-                      {.name = "ny", .type = ArgumentType::integer, .help = "along y", .positional = true, .low = 1,
+       .summary = "Begins a new solid from a base shape; its lowest corner stands at the origin unless `at` says "
+                  "otherwise.",
+       .parameters = {{.name = "shape",
+                       .type = ArgumentType::word,
+                       .help = "what to begin with",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"box", "tetrahedron", "wedge", "pyramid"}},
+                      {.name = "nx",
+                       .type = ArgumentType::integer,
+                       .help = "cells of a box along x",
+                       .positional = true,
+                       .low = 1,
                        .high = 1000},
-                      {.name = "nz", .type = ArgumentType::integer, .help = "along z", .positional = true, .low = 1,
+                      {.name = "ny",
+                       .type = ArgumentType::integer,
+                       .help = "along y",
+                       .positional = true,
+                       .low = 1,
+                       .high = 1000},
+                      {.name = "nz",
+                       .type = ArgumentType::integer,
+                       .help = "along z",
+                       .positional = true,
+                       .low = 1,
                        .high = 1000},
                       {.name = "size", .help = "extent", .unit = "m", .count = 3, .low = 1e-9, .high = 1e9},
-                      {.name = "at", .help = "where its lowest corner stands", .unit = "m", .count = 3, .low = -1e9,
+                      {.name = "at",
+                       .help = "where its lowest corner stands",
+                       .unit = "m",
+                       .count = 3,
+                       .low = -1e9,
                        .high = 1e9}},
        .example = "new box 4 4 1 size 0.6 0.6 0.1",
        .run = new_solid},
       {.name = "open",
        .summary = "Begins with the cells of a volume mesh file: .mesh, .vtk or .vtu.",
-       .parameters = {{.name = "file", .type = ArgumentType::text, .help = "beneath the session's own folder",
-                       .positional = true, .required = true}},
+       .parameters = {{.name = "file",
+                       .type = ArgumentType::text,
+                       .help = "beneath the session's own folder",
+                       .positional = true,
+                       .required = true}},
        .example = "open chair.vtk",
        .run = open},
       {.name = "extrude",
-       .summary = "Grows cells from boundary faces; neighbouring faces share their walls. The far faces are selected then.",
-       .parameters = {{.name = "distance", .help = "how far", .unit = "m", .positional = true, .required = true,
-                       .low = -1e9, .high = 1e9},
-                      {.name = "steps", .type = ArgumentType::integer, .help = "cells along the way", .low = 1, .high = 1000},
-                      {.name = "along", .help = "direction; else the mean normal of the faces", .count = 3,
-                       .low = -1e9, .high = 1e9},
-                      {.name = "scale", .help = "size of the far end against the near one, about the middle of each patch", .low = 1e-3, .high = 1e3},
-                      where_faces},
+       .summary = "Grows cells from boundary faces; neighbouring faces share their walls. The far faces are "
+                  "selected then.",
+       .parameters =
+           {{.name = "distance",
+             .help = "how far",
+             .unit = "m",
+             .positional = true,
+             .required = true,
+             .low = -1e9,
+             .high = 1e9},
+            {.name = "steps", .type = ArgumentType::integer, .help = "cells along the way", .low = 1, .high = 1000},
+            {.name = "along",
+             .help = "direction; else the mean normal of the faces",
+             .count = 3,
+             .low = -1e9,
+             .high = 1e9},
+            {.name = "scale",
+             .help = "size of the far end against the near one, about the middle of each patch",
+             .low = 1e-3,
+             .high = 1e3},
+            where_faces},
        .example = "extrude 0.4 steps 2",
        .run = extrude_faces},
       {.name = "peak",
        .summary = "Raises a pyramid over each boundary face.",
-       .parameters = {{.name = "height", .help = "of the apex over the middle of the face", .unit = "m", .positional = true,
-                       .required = true, .low = 1e-9, .high = 1e9},
+       .parameters = {{.name = "height",
+                       .help = "of the apex over the middle of the face",
+                       .unit = "m",
+                       .positional = true,
+                       .required = true,
+                       .low = 1e-9,
+                       .high = 1e9},
                       where_faces},
        .example = "peak 0.05 where z > 0.9",
        .run = raise_peaks},
       {.name = "remove",
        .summary = "Removes cells, with the faces, edges and vertices that nothing holds any more.",
-       .parameters = {{.name = "where", .type = ArgumentType::expression, .help = "the cells; else those selected"}},
+       .parameters = {{.name = "where",
+                       .type = ArgumentType::expression,
+                       .help = "the cells; else those selected"}},
        .example = "remove where x > 0.5",
        .run = remove_cells},
       {.name = "move",
        .summary = "Moves the selected vertices, or those of the selected edges, faces or cells.",
-       .parameters = {{.name = "by", .help = "the shift", .unit = "m", .count = 3, .positional = true, .required = true,
-                       .low = -1e9, .high = 1e9},
-                      {.name = "where", .type = ArgumentType::expression, .help = "the vertices; else what is selected"}},
+       .parameters = {{.name = "by",
+                       .help = "the shift",
+                       .unit = "m",
+                       .count = 3,
+                       .positional = true,
+                       .required = true,
+                       .low = -1e9,
+                       .high = 1e9},
+                      {.name = "where",
+                       .type = ArgumentType::expression,
+                       .help = "the vertices; else what is selected"}},
        .example = "move 0 0.05 0 where z > 0.8",
        .run = move},
       {.name = "sharpen",
        .summary = "Makes boundary edges creases, or boundary vertices corners; 0 makes them smooth again.",
-       .parameters = {{.name = "value", .help = "sharpness: 10 is infinite, 0 smooth", .positional = true, .low = 0,
+       .parameters = {{.name = "value",
+                       .help = "sharpness: 10 is infinite, 0 smooth",
+                       .positional = true,
+                       .low = 0,
                        .high = 10},
-                      {.name = "where", .type = ArgumentType::expression, .help = "the edges; else what is selected"}},
+                      {.name = "where",
+                       .type = ArgumentType::expression,
+                       .help = "the edges; else what is selected"}},
        .example = "sharpen 10",
        .run = sharpen_elements},
       {.name = "levels",
        .summary = "How often the control solid is refined before it becomes finite elements.",
-       .parameters = {{.name = "level", .type = ArgumentType::integer, .help = "refinements", .positional = true,
-                       .required = true, .low = 0, .high = 8}},
+       .parameters = {{.name = "level",
+                       .type = ArgumentType::integer,
+                       .help = "refinements",
+                       .positional = true,
+                       .required = true,
+                       .low = 0,
+                       .high = 8}},
        .example = "levels 2",
        .run = set_level},
       {.name = "space",
-       .summary = "Which functions the solid may move by: trilinear ones on the refined nodes (default), or tricubic "
-                  "B-splines where cells are regular.",
-       .parameters = {{.name = "space", .type = ArgumentType::word, .help = "the space", .positional = true,
-                       .required = true, .choices = {"default", "cubic"}},
-                      {.name = "split", .type = ArgumentType::integer,
-                       .help = "cubic: how often the remaining cells are split", .low = 0, .high = 3}},
+       .summary =
+           "Which functions the solid may move by: trilinear ones on the refined nodes (default), or tricubic "
+           "B-splines where cells are regular.",
+       .parameters = {{.name = "space",
+                       .type = ArgumentType::word,
+                       .help = "the space",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"default", "cubic"}},
+                      {.name = "split",
+                       .type = ArgumentType::integer,
+                       .help = "cubic: how often the remaining cells are split",
+                       .low = 0,
+                       .high = 3}},
        .example = "space cubic split 1",
        .run = set_space},
   };

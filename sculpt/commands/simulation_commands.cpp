@@ -15,35 +15,42 @@ namespace argil::sculpt {
 namespace {
 
 void pin(Session& session, const Arguments& arguments) {
-  constexpr ElementType types[] = {ElementType::vertices, ElementType::edges, ElementType::faces, ElementType::cells,
-                                   ElementType::nodes};
+  constexpr ElementType types[] = {ElementType::vertices, ElementType::edges, ElementType::faces,
+                                   ElementType::cells, ElementType::nodes};
   const Selection selection = acted_on(session, arguments, types);
   const Document& document = session.document();
   State next = document.state();
   auto pins = std::make_shared<Pins>(*next.pins);
   const bool off = arguments.has("off");
-  if (off && arguments.has("stiffness")) throw Error(ErrorCode::bad_input, "what is released has no stiffness; leave it out");
+  if (off && arguments.has("stiffness"))
+    throw Error(ErrorCode::bad_input, "what is released has no stiffness; leave it out");
   if (selection.type == ElementType::nodes) {
     std::erase_if(pins->nodes, [&](const SoftPin& p) {
       return std::binary_search(selection.ids.begin(), selection.ids.end(), p.node);
     });
     if (!off) {
       if (!arguments.has("stiffness"))
-        throw Error(ErrorCode::bad_input, "a refined node is pinned by a spring: give its stiffness, as in `pin stiffness 1e5`");
+        throw Error(ErrorCode::bad_input,
+                    "a refined node is pinned by a spring: give its stiffness, as in `pin stiffness 1e5`");
       const Eigen::Matrix3Xd now = document.surface_nodes(document.positions());
       for (const std::uint32_t node : selection.ids)
         pins->nodes.push_back({node, arguments.number("stiffness"), now.col(node)});
-      std::sort(pins->nodes.begin(), pins->nodes.end(), [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
+      std::sort(pins->nodes.begin(), pins->nodes.end(),
+                [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
     }
-    session.print(fmt::format("{} {}", count_of(selection.ids.size(), ElementType::nodes), off ? "released" : "held by springs"));
+    session.print(fmt::format("{} {}", count_of(selection.ids.size(), ElementType::nodes),
+                              off ? "released" : "held by springs"));
   } else {
     if (arguments.has("stiffness"))
-      throw Error(ErrorCode::bad_input, "a stiffness is for nodes (`select nodes where …`); control points are pinned exactly");
+      throw Error(ErrorCode::bad_input,
+                  "a stiffness is for nodes (`select nodes where …`); control points are pinned exactly");
     const auto vertices = vertices_of(document, selection);
     std::vector<std::uint32_t> result;
     auto& old = pins->control_points;
-    if (off) std::set_difference(old.begin(), old.end(), vertices.begin(), vertices.end(), std::back_inserter(result));
-    else std::set_union(old.begin(), old.end(), vertices.begin(), vertices.end(), std::back_inserter(result));
+    if (off)
+      std::set_difference(old.begin(), old.end(), vertices.begin(), vertices.end(), std::back_inserter(result));
+    else
+      std::set_union(old.begin(), old.end(), vertices.begin(), vertices.end(), std::back_inserter(result));
     old = std::move(result);
     auto motion = std::make_shared<fem::BodyState>(*next.motion);
     if (!off)
@@ -55,7 +62,8 @@ void pin(Session& session, const Arguments& arguments) {
         }
       }
     next.motion = motion;
-    session.print(fmt::format("{} {}", count_of(vertices.size(), ElementType::vertices), off ? "released" : "pinned"));
+    session.print(
+        fmt::format("{} {}", count_of(vertices.size(), ElementType::vertices), off ? "released" : "pinned"));
   }
   next.pins = pins;
   session.change(std::move(next));
@@ -85,7 +93,8 @@ void apply_force(Session& session, const Arguments& arguments) {
     return;
   }
   if (!arguments.has("force"))
-    throw Error(ErrorCode::bad_input, "force wants its three components, as in `force 0 0 -10 where z > 0.9`, or `clear`");
+    throw Error(ErrorCode::bad_input,
+                "force wants its three components, as in `force 0 0 -10 where z > 0.9`, or `clear`");
   AppliedForce applied;
   applied.force = arguments.vector("force");
   if (arguments.has("at")) {
@@ -96,8 +105,10 @@ void apply_force(Session& session, const Arguments& arguments) {
     applied.faces = acted_on(session, arguments, faces).ids;
     for (const std::uint32_t f : applied.faces)
       if (!session.document().solid().is_boundary(subdiv::FaceId{f}))
-        throw Error(ErrorCode::bad_input, fmt::format("face {} is inside the solid; a force is spread over boundary faces, or "
-                                                      "acts `at` a point inside", f));
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("face {} is inside the solid; a force is spread over boundary faces, or "
+                                "acts `at` a point inside",
+                                f));
   }
   loads->forces.push_back(std::move(applied));
   next.loads = loads;
@@ -118,7 +129,8 @@ void step(Session& session, const Arguments& arguments) {
   session.require_steps(static_cast<double>(count));
   State first = session.document().state();
   const double time_step = arguments.number("dt", first.time_step);
-  if (time_step != first.time_step) first.tick_carry = 0;  // what was left over was part of a step of another length
+  if (time_step != first.time_step)
+    first.tick_carry = 0;  // what was left over was part of a step of another length
   first.time_step = time_step;
   session.document().assign(std::move(first));
   for (long i = 0; i < count && !session.stop_requested(); ++i) simulation_step(session, {}, time_step);
@@ -133,7 +145,8 @@ void solve(Session& session, const Arguments&) {
   fem::StepOptions options;
   options.linear_tolerance = 1e-9;
   options.newton_tolerance = 1e-8;
-  const fem::StepReport report = document.integrator().solve_static(document.loads(), *motion, options, session.options().clock);
+  const fem::StepReport report =
+      document.integrator().solve_static(document.loads(), *motion, options, session.options().clock);
   session.print(fmt::format("equilibrium in {} Newton and {} linear iterations", report.newton_iterations,
                             report.linear_iterations));
   next.motion = motion;
@@ -148,7 +161,8 @@ void commit(Session& session, const Arguments&) {
   // A force at a point stays with its matter, which has a new rest position.
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
   for (AppliedForce& force : loads->forces)
-    if (force.faces.empty()) force.point = fem::position(material_point(document, force.point).stencil, document.positions());
+    if (force.faces.empty())
+      force.point = fem::position(material_point(document, force.point).stencil, document.positions());
   next.loads = loads;
   next.rest = std::make_shared<Eigen::Matrix3Xd>(next.motion->positions);
   auto motion = std::make_shared<fem::BodyState>();
@@ -170,38 +184,73 @@ std::vector<Command> simulation_commands() {
       {.name = "pin",
        .summary = "Holds the selected control points exactly where they are, or the selected nodes by springs.",
        .parameters = {{.name = "off", .help = "release instead", .flag = true},
-                      {.name = "stiffness", .help = "of the springs that hold nodes", .unit = "N/m", .low = 1e-9, .high = 1e15},
-                      {.name = "where", .type = ArgumentType::expression, .help = "the control vertices; else what is selected"}},
+                      {.name = "stiffness",
+                       .help = "of the springs that hold nodes",
+                       .unit = "N/m",
+                       .low = 1e-9,
+                       .high = 1e15},
+                      {.name = "where",
+                       .type = ArgumentType::expression,
+                       .help = "the control vertices; else what is selected"}},
        .example = "pin where z < -0.39",
        .run = pin},
       {.name = "gravity",
        .summary = "The acceleration that acts on every mass.",
-       .parameters = {{.name = "acceleration", .help = "its components", .unit = "m/s^2", .count = 3, .positional = true,
-                       .required = true, .low = -1e6, .high = 1e6}},
+       .parameters = {{.name = "acceleration",
+                       .help = "its components",
+                       .unit = "m/s^2",
+                       .count = 3,
+                       .positional = true,
+                       .required = true,
+                       .low = -1e6,
+                       .high = 1e6}},
        .example = "gravity 0 0 -9.81",
        .run = set_gravity},
       {.name = "force",
-       .summary = "A force in total, spread over boundary faces by area or acting at a point inside; it stays until cleared.",
-       .parameters = {{.name = "force", .help = "its components", .unit = "N", .count = 3, .positional = true, .low = -1e12,
+       .summary = "A force in total, spread over boundary faces by area or acting at a point inside; it stays "
+                  "until cleared.",
+       .parameters = {{.name = "force",
+                       .help = "its components",
+                       .unit = "N",
+                       .count = 3,
+                       .positional = true,
+                       .low = -1e12,
                        .high = 1e12},
                       {.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3},
                       {.name = "clear", .help = "take all forces away", .flag = true},
-                      {.name = "where", .type = ArgumentType::expression, .help = "the faces; else those selected"}},
+                      {.name = "where",
+                       .type = ArgumentType::expression,
+                       .help = "the faces; else those selected"}},
        .example = "force 0 0 -10 where z > 0.09",
        .run = apply_force},
       {.name = "integrator",
        .summary = "How time advances: BDF2 (second order, default) or implicit Euler.",
-       .parameters = {{.name = "method", .type = ArgumentType::word, .help = "the method", .positional = true,
-                       .required = true, .choices = {"bdf2", "implicit_euler"}},
-                      {.name = "newton", .type = ArgumentType::integer, .help = "most Newton iterations a step", .low = 1,
+       .parameters = {{.name = "method",
+                       .type = ArgumentType::word,
+                       .help = "the method",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"bdf2", "implicit_euler"}},
+                      {.name = "newton",
+                       .type = ArgumentType::integer,
+                       .help = "most Newton iterations a step",
+                       .low = 1,
                        .high = 100}},
        .example = "integrator bdf2 newton 3",
        .run = set_integrator},
       {.name = "step",
        .summary = "Advances time without a device.",
-       .parameters = {{.name = "count", .type = ArgumentType::integer, .help = "steps", .positional = true, .low = 1,
+       .parameters = {{.name = "count",
+                       .type = ArgumentType::integer,
+                       .help = "steps",
+                       .positional = true,
+                       .low = 1,
                        .high = 1e7},
-                      {.name = "dt", .help = "length of a step, kept for what follows", .unit = "s", .low = 1e-9, .high = 10}},
+                      {.name = "dt",
+                       .help = "length of a step, kept for what follows",
+                       .unit = "s",
+                       .low = 1e-9,
+                       .high = 10}},
        .example = "step 60 dt 1/60",
        .run = step},
       {.name = "solve",

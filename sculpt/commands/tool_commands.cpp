@@ -27,7 +27,8 @@ void set_tool(Session& session, const Arguments& arguments) {
 }
 
 // What the device should feel: the spring's pull back, with its slope.
-ContactModel felt(const PullGrip& grip, const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions, Tick valid_until) {
+ContactModel felt(const PullGrip& grip, const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions,
+                  Tick valid_until) {
   ContactModel model;
   model.point = device;
   model.force = -grip.force(device, positions);
@@ -41,13 +42,14 @@ void stroke(Session& session, const Arguments& arguments) {
   Document& document = session.document();
   const Eigen::Vector3d from = arguments.vector("from"), to = arguments.vector("to");
   const Tick ticks = arguments.integer("ticks", 500), hold = arguments.integer("hold", 0);
-  session.require_steps(std::floor((static_cast<double>(ticks + hold) + document.state().tick_carry) * k_tick_seconds /
-                                   document.state().time_step));
+  session.require_steps(std::floor((static_cast<double>(ticks + hold) + document.state().tick_carry) *
+                                   k_tick_seconds / document.state().time_step));
   const PullGrip grip(document, document.state().tool, from);
 
   const Ease ease = arguments.word("ease", "linear") == "smooth" ? Ease::smooth : Ease::linear;
-  ScriptedDevice script({{{from, Eigen::Quaterniond::Identity()}, {to, Eigen::Quaterniond::Identity()}, ticks, ease, 1},
-                         {{to, Eigen::Quaterniond::Identity()}, {to, Eigen::Quaterniond::Identity()}, hold, Ease::linear, 1}});
+  ScriptedDevice script(
+      {{{from, Eigen::Quaterniond::Identity()}, {to, Eigen::Quaterniond::Identity()}, ticks, ease, 1},
+       {{to, Eigen::Quaterniond::Identity()}, {to, Eigen::Quaterniond::Identity()}, hold, Ease::linear, 1}});
   SimulatedHand hand(script);
   const bool by_hand = arguments.word("device", "scripted") == "hand";
   Device& device = by_hand ? static_cast<Device&>(hand) : script;
@@ -81,28 +83,55 @@ std::vector<Command> tool_commands() {
   return {
       {.name = "tool",
        .summary = "Chooses the force tool that strokes use, and its brush.",
-       .parameters = {{.name = "tool", .type = ArgumentType::word, .help = "pull: a spring from the device to what it touched; "
-                                                                           "a stroke into the solid pushes",
-                       .positional = true, .required = true, .choices = {"pull"}},
+       .parameters = {{.name = "tool",
+                       .type = ArgumentType::word,
+                       .help = "pull: a spring from the device to what it touched; "
+                               "a stroke into the solid pushes",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"pull"}},
                       {.name = "radius", .help = "of what it touches", .unit = "m", .low = 1e-9, .high = 1e9},
                       {.name = "strength", .help = "of the spring", .unit = "N/m", .low = 1e-9, .high = 1e12},
                       {.name = "limit", .help = "largest force", .unit = "N", .low = 1e-12, .high = 1e12},
-                      {.name = "falloff", .type = ArgumentType::word, .help = "towards the rim",
+                      {.name = "falloff",
+                       .type = ArgumentType::word,
+                       .help = "towards the rim",
                        .choices = {"smooth", "linear", "constant"}}},
        .example = "tool pull radius 0.15 strength 40",
        .run = set_tool},
       {.name = "stroke",
        .summary = "Moves the device along a line with the tool held on; the simulation advances with it.",
-       .parameters = {{.name = "from", .help = "where the tool takes hold of the surface", .unit = "m", .count = 3,
-                       .required = true, .low = -1e9, .high = 1e9},
-                      {.name = "to", .help = "where the device goes", .unit = "m", .count = 3, .required = true, .low = -1e9,
+       .parameters = {{.name = "from",
+                       .help = "where the tool takes hold of the surface",
+                       .unit = "m",
+                       .count = 3,
+                       .required = true,
+                       .low = -1e9,
                        .high = 1e9},
-                      {.name = "ticks", .type = ArgumentType::integer, .help = "milliseconds on the way", .required = true,
-                       .low = 1, .high = 1e7},
-                      {.name = "hold", .type = ArgumentType::integer, .help = "milliseconds held at the end", .low = 0,
+                      {.name = "to",
+                       .help = "where the device goes",
+                       .unit = "m",
+                       .count = 3,
+                       .required = true,
+                       .low = -1e9,
+                       .high = 1e9},
+                      {.name = "ticks",
+                       .type = ArgumentType::integer,
+                       .help = "milliseconds on the way",
+                       .required = true,
+                       .low = 1,
                        .high = 1e7},
-                      {.name = "ease", .type = ArgumentType::word, .help = "speed along the way", .choices = {"linear", "smooth"}},
-                      {.name = "device", .type = ArgumentType::word,
+                      {.name = "hold",
+                       .type = ArgumentType::integer,
+                       .help = "milliseconds held at the end",
+                       .low = 0,
+                       .high = 1e7},
+                      {.name = "ease",
+                       .type = ArgumentType::word,
+                       .help = "speed along the way",
+                       .choices = {"linear", "smooth"}},
+                      {.name = "device",
+                       .type = ArgumentType::word,
                        .help = "scripted: follows the line exactly; hand: a simulated hand that feels the force",
                        .choices = {"scripted", "hand"}}},
        .example = "stroke from 0.3 0.3 0.1 to 0.3 0.3 -0.05 ticks 500",

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "sculpt/document_loads.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include "sculpt/document_loads.h"
 
 #include "subdiv/error.h"
 
@@ -30,13 +30,15 @@ double distance_to_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, 
 }
 
 // Each quadrilateral as four triangles about its middle.
-double distance_to_surface(const fem::SurfacePatch& patch, const Eigen::Matrix3Xd& nodes, const Eigen::Vector3d& p) {
+double distance_to_surface(const fem::SurfacePatch& patch, const Eigen::Matrix3Xd& nodes,
+                           const Eigen::Vector3d& p) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& quad : patch.quads) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const std::uint32_t node : quad) middle += nodes.col(node) / 4;
     for (std::size_t i = 0; i < 4; ++i)
-      nearest = std::min(nearest, distance_to_triangle(p, nodes.col(quad[i]), nodes.col(quad[(i + 1) % 4]), middle));
+      nearest =
+          std::min(nearest, distance_to_triangle(p, nodes.col(quad[i]), nodes.col(quad[(i + 1) % 4]), middle));
   }
   return nearest;
 }
@@ -48,13 +50,16 @@ PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vect
   const fem::Discretization& d = document.discretization();
   const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, document.positions());
   const fem::SurfacePatch surface = fem::whole_surface(d, document.refinement().solid());
-  // A brush finer than the mesh is widened until it holds something, so what it touches is asked of the surface itself.
+  // A brush finer than the mesh is widened until it holds something, so what it touches is asked of the surface
+  // itself.
   const double away = distance_to_surface(surface, nodes, at);
   if (away > tool.radius)
-    throw Error(ErrorCode::bad_input,
-                fmt::format("the tool touches nothing at ({:g}, {:g}, {:g}): the surface is {:.3g} m away and its radius is "
-                            "{:g} m; begin the stroke on the surface or make the radius larger", at.x(), at.y(), at.z(), away,
-                            tool.radius));
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format(
+            "the tool touches nothing at ({:g}, {:g}, {:g}): the surface is {:.3g} m away and its radius is "
+            "{:g} m; begin the stroke on the surface or make the radius larger",
+            at.x(), at.y(), at.z(), away, tool.radius));
   const fem::Brush brush{at, tool.radius, falloff_by_word(tool.falloff)};
   grip_ = fem::anchor_spring(fem::brush_stencil(d, surface, nodes, brush), at, tool.strength);
   offset_ = held(document.positions()) - at;

@@ -1,7 +1,7 @@
 #pragma once
-// Pull and push: a spring from the device to the points that it touched (papers/004 §4.1). The touched points are the
-// boundary within a radius of where the device took hold, weighted by falloff and area, so that the force is spread
-// over them by virtual work and never acts on one vertex.
+// Pull and push: a spring from the device to the points that it touched (papers/004 §4.1). The touched points are
+// the boundary within a radius of where the device took hold, weighted by falloff and area, so that the force is
+// spread over them by virtual work and never acts on one vertex.
 
 #include "fem/system.h"
 #include "sculpt/document.h"

@@ -10,8 +10,8 @@ namespace {
 
 using namespace argil;
 
-// A sharp-free box at one level: 8 n³ trilinear hexahedra, or tricubic elements where it is regular; slightly sheared so
-// that rotations have to be found.
+// A sharp-free box at one level: 8 n³ trilinear hexahedra, or tricubic elements where it is regular; slightly
+// sheared so that rotations have to be found.
 struct Body {
   fem::Discretization discretization;
   std::unique_ptr<fem::ForceModel> model;
@@ -51,7 +51,8 @@ void forces(benchmark::State& state) {
 
 void tangent(benchmark::State& state) {
   const Body body(static_cast<int>(state.range(0)), space_of(state));
-  for (auto _ : state) benchmark::DoNotOptimize(body.model->tangent(body.nodes, fem::Projection::positive_semidefinite));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(body.model->tangent(body.nodes, fem::Projection::positive_semidefinite));
   label(state, body);
 }
 

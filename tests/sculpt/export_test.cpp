@@ -15,8 +15,13 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> k_bent = {"new box 3 2 2 size 0.3 0.2 0.2", "levels 1", "set density 400 + 100*x", "set young_modulus 3e4 where x > 0.1",
-                                         "pin where x < 0.01", "force 0 0 -1 where x > 0.29", "step 5"};
+const std::vector<std::string> k_bent = {"new box 3 2 2 size 0.3 0.2 0.2",
+                                         "levels 1",
+                                         "set density 400 + 100*x",
+                                         "set young_modulus 3e4 where x > 0.1",
+                                         "pin where x < 0.01",
+                                         "force 0 0 -1 where x > 0.29",
+                                         "step 5"};
 
 const io::NamedField& field_of(const io::VolumeMesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.point_fields.begin(), mesh.point_fields.end(),
@@ -30,7 +35,8 @@ TEST(Export, AVtuHoldsTheShapeAndEveryField) {
     TestSession session(k_bent);
     session.run({std::string("space ") + space, "save bent.vtu", "save bent.vtk"});
     const Document& document = session.document();
-    const Eigen::Matrix3Xd now = document.surface_nodes(document.positions()), rest = document.surface_nodes(document.rest());
+    const Eigen::Matrix3Xd now = document.surface_nodes(document.positions()),
+                           rest = document.surface_nodes(document.rest());
     for (const char* file : {"bent.vtu", "bent.vtk"}) {
       const io::VolumeMesh mesh = io::read_volume_mesh(session.folder().path() / file);
       EXPECT_EQ(mesh.cells.cell_count(), 96U);
@@ -40,11 +46,16 @@ TEST(Export, AVtuHoldsTheShapeAndEveryField) {
         const ShownField shown = shown_field(document, name);
         const io::NamedField& held = field_of(mesh, name);
         EXPECT_EQ(held.components, 1);
-        EXPECT_EQ((Eigen::Map<const Eigen::VectorXd>(held.values.data(), static_cast<Eigen::Index>(held.values.size()))), shown.values) << name;
+        EXPECT_EQ(
+            (Eigen::Map<const Eigen::VectorXd>(held.values.data(), static_cast<Eigen::Index>(held.values.size()))),
+            shown.values)
+            << name;
       }
       const io::NamedField& moved = field_of(mesh, "displacement");
       ASSERT_EQ(moved.components, 3);
-      EXPECT_EQ((Eigen::Map<const Eigen::Matrix3Xd>(moved.values.data(), 3, static_cast<Eigen::Index>(moved.values.size() / 3))), now - rest);
+      EXPECT_EQ((Eigen::Map<const Eigen::Matrix3Xd>(moved.values.data(), 3,
+                                                    static_cast<Eigen::Index>(moved.values.size() / 3))),
+                now - rest);
       EXPECT_GT((now - rest).norm(), 1e-3);
     }
   }
@@ -73,9 +84,10 @@ TEST(Export, DeadIdsLeaveNoHoles) {
 TEST(Export, AnObjIsClosed) {
   // A solid with a hole through it, a pyramid on it, and two blocks that touch in an edge only.
   for (const std::vector<std::string>& lines :
-       {std::vector<std::string>{"new box 3 3 1 size 3 3 1", "remove where x > 1 and x < 2 and y > 1 and y < 2", "peak 1 where z > 0.9 and x < 1 and y < 1",
-                                 "levels 2"},
-        std::vector<std::string>{"new box 2 2 1 size 2 2 1", "remove where x < 1 and y < 1 or x > 1 and y > 1", "levels 1"}}) {
+       {std::vector<std::string>{"new box 3 3 1 size 3 3 1", "remove where x > 1 and x < 2 and y > 1 and y < 2",
+                                 "peak 1 where z > 0.9 and x < 1 and y < 1", "levels 2"},
+        std::vector<std::string>{"new box 2 2 1 size 2 2 1", "remove where x < 1 and y < 1 or x > 1 and y > 1",
+                                 "levels 1"}}) {
     TestSession session(lines);
     session.run({"save a.obj"});
     std::istringstream text(session.folder().text_of("a.obj"));
@@ -94,9 +106,13 @@ TEST(Export, AnObjIsClosed) {
         std::vector<int> corners;
         for (std::string corner; words >> corner;) corners.push_back(std::stoi(corner) - 1);
         ASSERT_GE(corners.size(), 3U);
-        for (std::size_t i = 0; i < corners.size(); ++i) ++directed[{corners[i], corners[(i + 1) % corners.size()]}];
+        for (std::size_t i = 0; i < corners.size(); ++i)
+          ++directed[{corners[i], corners[(i + 1) % corners.size()]}];
         for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-          volume += points[static_cast<std::size_t>(corners[0])].dot(points[static_cast<std::size_t>(corners[i])].cross(points[static_cast<std::size_t>(corners[i + 1])])) / 6;
+          volume +=
+              points[static_cast<std::size_t>(corners[0])].dot(points[static_cast<std::size_t>(corners[i])].cross(
+                  points[static_cast<std::size_t>(corners[i + 1])])) /
+              6;
       }
     }
     ASSERT_GT(directed.size(), 100U);

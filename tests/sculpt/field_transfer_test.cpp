@@ -17,7 +17,8 @@ Eigen::Matrix3Xd rest_nodes(TestSession& session) {
 
 TEST(FieldTransfer, ConstantsRiseExactly) {
   for (const char* shape : {"new box 2 3 2", "new wedge", "new pyramid", "new tetrahedron"}) {
-    TestSession session({shape, "peak 0.3 where z < 0.01", "set young_modulus 12345.6789", "set poisson_ratio 0.499", "levels 2"});
+    TestSession session(
+        {shape, "peak 0.3 where z < 0.01", "set young_modulus 12345.6789", "set poisson_ratio 0.499", "levels 2"});
     const auto nodes = static_cast<Eigen::Index>(session.document().refinement().solid().vertex_count());
     EXPECT_EQ(field(session, FieldName::young_modulus), Eigen::VectorXd::Constant(nodes, 12345.6789)) << shape;
     EXPECT_EQ(field(session, FieldName::poisson_ratio), Eigen::VectorXd::Constant(nodes, 0.499)) << shape;
@@ -25,8 +26,9 @@ TEST(FieldTransfer, ConstantsRiseExactly) {
 }
 
 TEST(FieldTransfer, LinearFieldsRiseLinearlyAlsoWithTheSharpBoundaryOfABox) {
-  TestSession session({"new box 4 3 3 size 0.4 0.3 0.3", "select edges angle 30", "sharpen", "select vertices where valence = 3",
-                       "sharpen", "set density 500 + 1000*x - 200*y", "levels 2"});
+  TestSession session({"new box 4 3 3 size 0.4 0.3 0.3", "select edges angle 30", "sharpen",
+                       "select vertices where valence = 3", "sharpen", "set density 500 + 1000*x - 200*y",
+                       "levels 2"});
   const Eigen::Matrix3Xd nodes = rest_nodes(session);
   const Eigen::VectorXd expected = 500 + 1000 * nodes.row(0).array() - 200 * nodes.row(1).array();
   // The same stencils refine the field and the positions: only rounding is between them.
@@ -119,7 +121,8 @@ TEST(FieldTransfer, NodesInsideWhatStayedKeepTheirPlaceThroughARemoval) {
 }
 
 TEST(FieldTransfer, SoftPinsAndSelectedNodesFollow) {
-  TestSession session({"new box 3 2 2 size 3 2 2", "levels 2", "select nodes as side where x < 0.2 and y < 0.6", "pin stiffness 30"});
+  TestSession session({"new box 3 2 2 size 3 2 2", "levels 2", "select nodes as side where x < 0.2 and y < 0.6",
+                       "pin stiffness 30"});
   const auto places = [&] {
     const Eigen::Matrix3Xd nodes = rest_nodes(session);
     std::vector<Eigen::Vector3d> at;
@@ -135,8 +138,9 @@ TEST(FieldTransfer, SoftPinsAndSelectedNodesFollow) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     // The order of nodes may change: each has its target, which is where it was when it was pinned.
     EXPECT_EQ(session.state().pins->nodes[i].stiffness, 30);
-    const auto old = std::find_if(pins.begin(), pins.end(),
-                                  [&](const SoftPin& p) { return p.target == session.state().pins->nodes[i].target; });
+    const auto old = std::find_if(pins.begin(), pins.end(), [&](const SoftPin& p) {
+      return p.target == session.state().pins->nodes[i].target;
+    });
     ASSERT_NE(old, pins.end());
     EXPECT_LT((second[i] - first[static_cast<std::size_t>(old - pins.begin())]).norm(), 1e-14);
   }
@@ -145,11 +149,13 @@ TEST(FieldTransfer, SoftPinsAndSelectedNodesFollow) {
 }
 
 TEST(FieldTransfer, LevelsCarryNodesOrFreeThem) {
-  TestSession session({"new box 2 2 2", "levels 1", "select nodes as corner where x < 0.2 and y < 0.2 and z < 0.2"});
+  TestSession session(
+      {"new box 2 2 2", "levels 1", "select nodes as corner where x < 0.2 and y < 0.2 and z < 0.2"});
   const std::size_t count = session.state().selection->ids.size();
   session.run({"pin stiffness 5", "levels 2"});
   ASSERT_EQ(session.state().pins->nodes.size(), count);
-  for (const SoftPin& pin : session.state().pins->nodes) EXPECT_LT(rest_nodes(session).col(pin.node).maxCoeff(), 0.3);
+  for (const SoftPin& pin : session.state().pins->nodes)
+    EXPECT_LT(rest_nodes(session).col(pin.node).maxCoeff(), 0.3);
   EXPECT_EQ(session.state().selection->ids.size(), count);
   session.run({"levels 0"});
   // Only the control vertex itself is left of them.

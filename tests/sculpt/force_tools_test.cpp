@@ -13,7 +13,12 @@ namespace {
 using testing::HasSubstr;
 
 std::vector<std::string> block(const std::string& space) {
-  return {"new box 3 3 2 size 0.3 0.3 0.2", "select edges angle 30", "sharpen", "levels 1", "space " + space, "pin where z < 0.01"};
+  return {"new box 3 3 2 size 0.3 0.3 0.2",
+          "select edges angle 30",
+          "sharpen",
+          "levels 1",
+          "space " + space,
+          "pin where z < 0.01"};
 }
 
 class Pull : public testing::TestWithParam<const char*> {};
@@ -61,7 +66,8 @@ TEST_P(Pull, TheLargestForceCutsIt) {
 TEST_P(Pull, ABrushFinerThanTheMeshStillTakesHold) {
   TestSession session(block(GetParam()));
   session.run({"tool pull radius 0.001 strength 40"});
-  for (const char* line : {"stroke from 0.15 0.15 0.2 to 0.15 0.15 0.22 ticks 20", "stroke from 0.13 0.17 0.2 to 0 0 0 ticks 20"}) {
+  for (const char* line :
+       {"stroke from 0.15 0.15 0.2 to 0.15 0.15 0.22 ticks 20", "stroke from 0.13 0.17 0.2 to 0 0 0 ticks 20"}) {
     session.run({line, "undo"});
   }
 }
@@ -93,7 +99,8 @@ TEST_P(Pull, ASimulatedHandFeelsTheForceAndReplaysToTheSameState) {
   TestSession replayed;
   replayed->run_text(hand.folder().text_of("journal.argil"), "journal.argil");
   EXPECT_EQ(replayed.hash(), hand.hash());
-  // The spring of 400 N/m draws the hand of 200 N/m back: it gets clearly less far than a device that feels nothing.
+  // The spring of 400 N/m draws the hand of 200 N/m back: it gets clearly less far than a device that feels
+  // nothing.
   const double stiff = scripted.measure("max_displacement"), soft = hand.measure("max_displacement");
   EXPECT_GT(soft, 0.1 * stiff);
   EXPECT_LT(soft, 0.9 * stiff);

@@ -12,8 +12,9 @@ using testing::HasSubstr;
 
 // A bar of 0.4 × 0.1 × 0.1 m, E = 1e5, with its flat ends and sharp edges.
 std::vector<std::string> bar(const std::string& space) {
-  return {"new box 4 1 1 size 0.4 0.1 0.1", "select edges angle 30", "sharpen", "levels 1", "space " + space,
-          "set young_modulus 1e5", "set density 500", "pin where x < 0.01"};
+  return {
+      "new box 4 1 1 size 0.4 0.1 0.1", "select edges angle 30", "sharpen",           "levels 1", "space " + space,
+      "set young_modulus 1e5",          "set density 500",       "pin where x < 0.01"};
 }
 
 class Measures : public testing::TestWithParam<const char*> {};
@@ -37,8 +38,8 @@ TEST_P(Measures, ReactionsBalanceTheLoads) {
 }
 
 TEST_P(Measures, SpringsThatHoldNodesAreAmongTheReactions) {
-  TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "levels 1", std::string("space ") + GetParam(), "select nodes where pz < 0.05",
-                       "pin stiffness 1e3", "gravity 0 0 -9.81", "solve"});
+  TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "levels 1", std::string("space ") + GetParam(),
+                       "select nodes where pz < 0.05", "pin stiffness 1e3", "gravity 0 0 -9.81", "solve"});
   const double weight = session.measure("mass") * 9.81;
   EXPECT_NEAR(session.measure("reaction_z"), weight, 1e-6 * weight);
   EXPECT_NEAR(session.measure("reaction_x"), 0, 1e-6 * weight);
@@ -73,7 +74,8 @@ TEST_P(Measures, AStretchedBarHasTheStrainOfItsLoad) {
 }
 
 TEST_P(Measures, ABodyInFreeFallHasTheMomentumOfItsWeight) {
-  TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "levels 1", std::string("space ") + GetParam(), "gravity 0 0 -10", "step 10 dt 0.01"});
+  TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "levels 1", std::string("space ") + GetParam(),
+                       "gravity 0 0 -10", "step 10 dt 0.01"});
   const double mass = session.measure("mass");
   EXPECT_NEAR(session.measure("time"), 0.1, 1e-15);
   EXPECT_NEAR(session.measure("momentum_z"), -mass, 1e-3 * mass);
@@ -92,7 +94,8 @@ TEST(Measures, CountsAreThoseOfTheSolid) {
 
 TEST(Measures, ExpectationsThatFailAreCollected) {
   TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "select edges angle 30", "sharpen", "levels 1"});
-  session.run({"expect volume 0.008 within 1e-12", "expect volume 0.00801 within 1%", "expect mass above 7.9 below 8.1"});
+  session.run(
+      {"expect volume 0.008 within 1e-12", "expect volume 0.00801 within 1%", "expect mass above 7.9 below 8.1"});
   EXPECT_TRUE(session->failed().empty());
   session.run({"expect volume 0.00801 within 0.1%", "expect mass above 8.1", "expect mass 8 within 1 below 7.5"});
   ASSERT_EQ(session->failed().size(), 3U);
@@ -106,7 +109,8 @@ TEST(Measures, EveryMeasureOfTheTableCanBeTaken) {
   TestSession session(bar("default"));
   session.run({"gravity 0 0 -1", "step 2"});
   for (const MeasureInfo& info : measure_table()) {
-    EXPECT_TRUE(std::isfinite(session.measure(info.name + (info.at_point ? " at 0.2 0.05 0.05" : "")))) << info.name;
+    EXPECT_TRUE(std::isfinite(session.measure(info.name + (info.at_point ? " at 0.2 0.05 0.05" : ""))))
+        << info.name;
     if (info.over_nodes) {
       EXPECT_TRUE(std::isfinite(session.measure(info.name + " where x < 0.2"))) << info.name;
     }

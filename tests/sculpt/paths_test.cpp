@@ -103,7 +103,8 @@ TEST_F(Paths, SessionsReachNothingElse) {
   TestSession session({"new box", "levels 1"}, options);
   fs::create_symlink(outside_ / "stolen.obj", session.folder().path() / "link.obj");
   fs::create_directory_symlink(outside_, session.folder().path() / "away");
-  for (const char* line : {"save link.obj", "save away/a.obj", "save ../a.obj", "open away/secret.vtu", "render away/a.png"})
+  for (const char* line :
+       {"save link.obj", "save away/a.obj", "save ../a.obj", "open away/secret.vtu", "render away/a.png"})
     EXPECT_EQ(session.fault_of(line).code(), ErrorCode::refused) << line;
   EXPECT_FALSE(fs::exists(outside_ / "stolen.obj"));
   EXPECT_EQ(std::distance(fs::directory_iterator(outside_), fs::directory_iterator()), 1);

@@ -1,5 +1,6 @@
-// Random sessions on small solids: each line succeeds or is an Error that leaves the hash as it was; the solid is valid
-// after every line; undoing everything ends where it began, and redoing it where it was. ARGIL_FUZZ_SESSIONS asks for more.
+// Random sessions on small solids: each line succeeds or is an Error that leaves the hash as it was; the solid is
+// valid after every line; undoing everything ends where it began, and redoing it where it was. ARGIL_FUZZ_SESSIONS
+// asks for more.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,38 +23,58 @@ class RandomLines {
 
   std::string next() {
     switch (pick(24)) {
-      case 0: return pick(4) ? edit() : start();
+      case 0:
+        return pick(4) ? edit() : start();
       case 1:
       case 2:
-      case 3: return select();
+      case 3:
+        return select();
       case 4:
       case 5:
       case 6:
-      case 7: return edit();
-      case 8: return fmt::format("move {} {} {}{}", number(-0.2, 0.2), number(-0.2, 0.2), number(-0.2, 0.2), maybe(where()));
+      case 7:
+        return edit();
+      case 8:
+        return fmt::format("move {} {} {}{}", number(-0.2, 0.2), number(-0.2, 0.2), number(-0.2, 0.2),
+                           maybe(where()));
       case 9:
-      case 10: return fmt::format("levels {}", pick(8) == 0 ? 2 : pick(2));
-      case 11: return fmt::format("space {}{}", pick(2) ? "cubic" : "default", maybe(fmt::format(" split {}", pick(2))));
-      case 12: return fmt::format("set {} {}{}", field(), formula(), maybe(where()));
+      case 10:
+        return fmt::format("levels {}", pick(8) == 0 ? 2 : pick(2));
+      case 11:
+        return fmt::format("space {}{}", pick(2) ? "cubic" : "default", maybe(fmt::format(" split {}", pick(2))));
+      case 12:
+        return fmt::format("set {} {}{}", field(), formula(), maybe(where()));
       case 13:
         return fmt::format("paint {} {} {}{}{}", field(), pick(2) ? "scale" : "value", number(0, 4),
                            maybe(fmt::format(" at {} radius {}", point(), number(0.05, 0.6))), maybe(where()));
-      case 14: return fmt::format("pin{}{}", maybe(pick(2) ? " off" : " stiffness 50"), maybe(where()));
-      case 15: return pick(4) ? fmt::format("force 0 {} 1 {}", number(-2, 2), pick(2) ? "at " + point() : where()) : "force clear";
-      case 16: return fmt::format("gravity 0 0 {}", number(-9.81, 0));
+      case 14:
+        return fmt::format("pin{}{}", maybe(pick(2) ? " off" : " stiffness 50"), maybe(where()));
+      case 15:
+        return pick(4) ? fmt::format("force 0 {} 1 {}", number(-2, 2), pick(2) ? "at " + point() : where())
+                       : "force clear";
+      case 16:
+        return fmt::format("gravity 0 0 {}", number(-9.81, 0));
       case 17:
-      case 18: return fmt::format("step {}{}", 1 + pick(2), maybe(fmt::format(" dt {}", pick(2) ? "1/60" : "0.005")));
+      case 18:
+        return fmt::format("step {}{}", 1 + pick(2), maybe(fmt::format(" dt {}", pick(2) ? "1/60" : "0.005")));
       case 19:
-        return fmt::format("stroke from {} to {} ticks {}{}", point(), point(), 1 + pick(40), maybe(" device hand"));
-      case 20: return pick(3) ? "commit" : "solve";
-      case 21: return pick(2) ? fmt::format("tool pull radius {} strength {}", number(0.05, 1), number(1, 100)) : "model linear";
-      case 22: return maybe("undo", fmt::format("undo {}", 1 + pick(4)));
-      default: return maybe("redo", fmt::format("redo {}", 1 + pick(3)));
+        return fmt::format("stroke from {} to {} ticks {}{}", point(), point(), 1 + pick(40),
+                           maybe(" device hand"));
+      case 20:
+        return pick(3) ? "commit" : "solve";
+      case 21:
+        return pick(2) ? fmt::format("tool pull radius {} strength {}", number(0.05, 1), number(1, 100))
+                       : "model linear";
+      case 22:
+        return maybe("undo", fmt::format("undo {}", 1 + pick(4)));
+      default:
+        return maybe("redo", fmt::format("redo {}", 1 + pick(3)));
     }
   }
 
   std::string start() {
-    static const char* const shapes[] = {"box 2 2 1", "box 3 1 1", "box 1 1 1", "wedge", "pyramid", "tetrahedron", "box 2 2 2"};
+    static const char* const shapes[] = {"box 2 2 1", "box 3 1 1",   "box 1 1 1", "wedge",
+                                         "pyramid",   "tetrahedron", "box 2 2 2"};
     return fmt::format("new {} size {} 0.5 0.5", shapes[pick(7)], number(0.3, 1));
   }
 
@@ -70,7 +91,8 @@ class RandomLines {
     return names[pick(12) == 0 ? 5 : pick(5)];
   }
   std::string formula() {
-    static const char* const formulas[] = {"300 + 100*z", "0.3", "1/x", "1e4*(1 + abs(sin(90*px)))", "valence", "density/2", "0"};
+    static const char* const formulas[] = {"300 + 100*z", "0.3",       "1/x", "1e4*(1 + abs(sin(90*px)))",
+                                           "valence",     "density/2", "0"};
     return formulas[pick(7)];
   }
   std::string where() {
@@ -95,10 +117,14 @@ class RandomLines {
     switch (pick(6)) {
       case 0:
       case 1:
-        return fmt::format("extrude {}{}{}{}", number(-0.1, 0.4), maybe(" steps 2"), maybe(" scale 0.8"), maybe(where()));
-      case 2: return fmt::format("peak {}{}", number(0.02, 0.3), maybe(where()));
-      case 3: return "remove" + maybe(where());
-      default: return fmt::format("sharpen{}{}", pick(2) ? "" : " 0", maybe(where()));
+        return fmt::format("extrude {}{}{}{}", number(-0.1, 0.4), maybe(" steps 2"), maybe(" scale 0.8"),
+                           maybe(where()));
+      case 2:
+        return fmt::format("peak {}{}", number(0.02, 0.3), maybe(where()));
+      case 3:
+        return "remove" + maybe(where());
+      default:
+        return fmt::format("sharpen{}{}", pick(2) ? "" : " 0", maybe(where()));
     }
   }
 

@@ -150,7 +150,8 @@ TEST(Session, ANewChangeForgetsWhatWasUndone) {
 
 TEST(Session, ItsJournalReplaysToTheSameState) {
   TestSession session(k_long_session);
-  session.run({"undo 3", "redo 1", "undo 2", "expect volume 0 within 50%", "measure mass as \"its mass\"", "step 1 dt 1/90"});
+  session.run({"undo 3", "redo 1", "undo 2", "expect volume 0 within 50%", "measure mass as \"its mass\"",
+               "step 1 dt 1/90"});
   EXPECT_THROW(session.run({"levels 99"}), Error);
   TestSession again;
   again->run_text(session.folder().text_of("journal.argil"), "journal.argil");
@@ -181,8 +182,9 @@ TEST(Session, WhatWasDerivedBeforeDoesNotReachTheState) {
   TestSession roundabout;
   for (const std::string& line : k_long_session) {
     if (!roundabout.document().empty() && roundabout.state().level > 0)
-      roundabout.run({"set young_modulus 3e3", "step", "undo 2", "pin where x < 0.1", "step", "undo 2", "model linear", "step",
-                      "undo 2", "levels 0", "undo", "space cubic", "measure mass", "undo", "gravity 1 2 3", "step", "undo 2"});
+      roundabout.run({"set young_modulus 3e3", "step", "undo 2", "pin where x < 0.1", "step", "undo 2",
+                      "model linear", "step", "undo 2", "levels 0", "undo", "space cubic", "measure mass", "undo",
+                      "gravity 1 2 3", "step", "undo 2"});
     roundabout.run({line});
   }
   EXPECT_EQ(roundabout.hash(), plain.hash());
@@ -492,8 +494,14 @@ TEST(Session, StrokesCarryTheirFractionsOfAStepOver) {
   EXPECT_EQ(session->steps().size(), before + 2 + 1 + 20);
 }
 
-const std::vector<std::string> k_bent_bar = {"new box 4 1 1 size 0.4 0.1 0.1", "select edges angle 30", "sharpen", "levels 1",
-                                             "pin where x < 0.01", "set damping 12", "force 0 0 -0.4 where x > 0.39", "solve"};
+const std::vector<std::string> k_bent_bar = {"new box 4 1 1 size 0.4 0.1 0.1",
+                                             "select edges angle 30",
+                                             "sharpen",
+                                             "levels 1",
+                                             "pin where x < 0.01",
+                                             "set damping 12",
+                                             "force 0 0 -0.4 where x > 0.39",
+                                             "solve"};
 
 TEST(Session, AfterCommitAndReleaseNothingMoves) {
   TestSession session(k_bent_bar);
@@ -521,7 +529,8 @@ TEST(Session, PinnedControlPointsMoveExactlyZero) {
   TestSession session({"new box 3 2 2 size 0.3 0.2 0.2", "levels 1", "pin where x < 0.01", "gravity 0 0 -9.81",
                        "tool pull radius 0.08 strength 200"});
   const Eigen::Matrix3Xd before = session.document().positions();
-  session.run({"step 5", "stroke from 0.3 0.1 0.1 to 0.5 0.2 0.1 ticks 200", "integrator implicit_euler", "step 3", "solve"});
+  session.run({"step 5", "stroke from 0.3 0.1 0.1 to 0.5 0.2 0.1 ticks 200", "integrator implicit_euler", "step 3",
+               "solve"});
   EXPECT_EQ(session.measure("pin_motion"), 0);
   ASSERT_EQ(session.state().pins->control_points.size(), 9U);
   for (const std::uint32_t v : session.state().pins->control_points) {
@@ -532,9 +541,10 @@ TEST(Session, PinnedControlPointsMoveExactlyZero) {
 }
 
 TEST(Session, CommitKeepsAPointForceOnItsMatter) {
-  TestSession session({"new box 4 1 1 size 0.4 0.1 0.1", "select edges angle 30", "sharpen", "levels 1", "pin where x < 0.01",
-                       "force 0 0 -0.5 at 0.39 0.05 0.05", "solve"});
-  const double x = session.measure("position_x at 0.39 0.05 0.05"), z = session.measure("position_z at 0.39 0.05 0.05");
+  TestSession session({"new box 4 1 1 size 0.4 0.1 0.1", "select edges angle 30", "sharpen", "levels 1",
+                       "pin where x < 0.01", "force 0 0 -0.5 at 0.39 0.05 0.05", "solve"});
+  const double x = session.measure("position_x at 0.39 0.05 0.05"),
+               z = session.measure("position_z at 0.39 0.05 0.05");
   ASSERT_LT(z, 0.045);
   session.run({"commit"});
   const Eigen::Vector3d point = session.state().loads->forces.at(0).point;
@@ -545,10 +555,10 @@ TEST(Session, CommitKeepsAPointForceOnItsMatter) {
 }
 
 TEST(Session, SharpenAndMoveAfterLevelsAreAsBefore) {
-  TestSession before({"new box 2 2 2 size 0.2 0.2 0.2", "select edges angle 30", "sharpen", "move 0 0.03 0 where z > 0.19",
-                      "levels 2", "set density 500"});
-  TestSession after({"new box 2 2 2 size 0.2 0.2 0.2", "levels 2", "set density 500", "select edges angle 30", "sharpen",
-                     "move 0 0.03 0 where z > 0.19"});
+  TestSession before({"new box 2 2 2 size 0.2 0.2 0.2", "select edges angle 30", "sharpen",
+                      "move 0 0.03 0 where z > 0.19", "levels 2", "set density 500"});
+  TestSession after({"new box 2 2 2 size 0.2 0.2 0.2", "levels 2", "set density 500", "select edges angle 30",
+                     "sharpen", "move 0 0.03 0 where z > 0.19"});
   EXPECT_EQ(after.document().solid().topology_hash(), before.document().solid().topology_hash());
   EXPECT_EQ(after.measure("volume"), before.measure("volume"));
   EXPECT_NEAR(after.measure("mass"), 500 * 0.2 * 0.2 * 0.2, 1e-12);

@@ -21,16 +21,19 @@ struct TraceLine {
 std::vector<TraceLine> read_trace(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file || std::filesystem::is_directory(path))
-    throw Error(ErrorCode::not_found, fmt::format("the trace '{}' cannot be read; `argil replay --hash-trace FILE` makes one",
-                                                  path.string()));
+    throw Error(
+        ErrorCode::not_found,
+        fmt::format("the trace '{}' cannot be read; `argil replay --hash-trace FILE` makes one", path.string()));
   std::vector<TraceLine> lines;
   std::string text;
   while (std::getline(file, text)) {
     std::istringstream words(text);
     TraceLine line;
     std::string rest;
-    if (!(words >> line.line >> line.command >> line.step >> line.hash) || (words >> rest) || line.hash.size() != 16)
-      throw Error(ErrorCode::bad_input, "this is not a line of a hash trace; make it with `argil replay --hash-trace`",
+    if (!(words >> line.line >> line.command >> line.step >> line.hash) || (words >> rest) ||
+        line.hash.size() != 16)
+      throw Error(ErrorCode::bad_input,
+                  "this is not a line of a hash trace; make it with `argil replay --hash-trace`",
                   fmt::format("{}:{}:1", path.string(), lines.size() + 1));
     lines.push_back(std::move(line));
   }
@@ -63,8 +66,8 @@ int diff(const std::filesystem::path& path_a, const std::filesystem::path& path_
   } else if (same) {
     fmt::print("the same: {} states\n", a.size());
   } else {
-    fmt::print("the first difference is after {} equal states:\n  {}: {}\n  {}: {}\n", i, path_a.string(), describe(a),
-               path_b.string(), describe(b));
+    fmt::print("the first difference is after {} equal states:\n  {}: {}\n  {}: {}\n", i, path_a.string(),
+               describe(a), path_b.string(), describe(b));
   }
   return same ? k_well : k_expectation_failed;
 }

@@ -13,34 +13,40 @@ namespace {
 using namespace argil::tools;
 
 int run(int argc, char** argv) {
-  CLI::App app{"Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
+  CLI::App app{
+      "Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
   app.name("argil");
   app.set_version_flag("--version", "argil " ARGIL_VERSION);
   app.require_subcommand(1);
-  app.footer("`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
-             "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
+  app.footer(
+      "`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
+      "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
   int status = k_well;
 
   ReplayArguments replaying;
-  CLI::App* replay_app = app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
+  CLI::App* replay_app =
+      app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
   replay_app->add_option("session", replaying.session, "the session file")->required();
   replay_app->add_option("--out", replaying.out, "folder for results (default: out/<session name>)");
   replay_app->add_option("--threads", replaying.threads, "threads; the results are the same bits for any number")
       ->check(CLI::Range(1, 1024));
-  replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")->check(CLI::NonNegativeNumber);
+  replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")
+      ->check(CLI::NonNegativeNumber);
   replay_app->add_option("--hash-trace", replaying.hash_trace, "write one state hash a step, for `argil diff`");
   replay_app->add_option("--set", replaying.overrides,
                          "stand in for a command of the session: --set space=cubic, --set levels=1");
   replay_app->add_option("--max-cells", replaying.limits.cells, "refuse to make more cells")->capture_default_str();
   replay_app->add_option("--max-steps", replaying.limits.steps, "refuse to take more steps")->capture_default_str();
-  replay_app->add_option("--max-memory", replaying.limits.memory, "bytes, estimated before allocating")->capture_default_str();
+  replay_app->add_option("--max-memory", replaying.limits.memory, "bytes, estimated before allocating")
+      ->capture_default_str();
   replay_app->add_flag("--json", replaying.json, "print the summary to standard output");
   replay_app->add_flag("--quiet", replaying.quiet, "no progress, no messages");
   replay_app->add_flag("!--no-pictures", replaying.pictures, "skip `render`");
-  replay_app->footer("summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
-                     "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
-                     "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
-                     "threads, measures, expectations.");
+  replay_app->footer(
+      "summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
+      "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
+      "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
+      "threads, measures, expectations.");
   replay_app->callback([&] { status = replay(replaying); });
 
   std::filesystem::path first, second;
@@ -49,7 +55,8 @@ int run(int argc, char** argv) {
   std::string space = "default", command;
   std::size_t max_cells = argil::sculpt::Limits{}.cells;
 
-  CLI::App* diff_app = app.add_subcommand("diff", "Names the first command and step at which two hash traces differ");
+  CLI::App* diff_app =
+      app.add_subcommand("diff", "Names the first command and step at which two hash traces differ");
   diff_app->add_option("trace_a", first)->required();
   diff_app->add_option("trace_b", second)->required();
   diff_app->add_flag("--json", json, "print the answer as JSON");
@@ -72,7 +79,8 @@ int run(int argc, char** argv) {
   elements_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
   elements_app->add_option("--levels", levels, "refinements")->required()->check(CLI::Range(0, 8));
   elements_app->add_option("--space", space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
-  elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")->check(CLI::Range(0, 3));
+  elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")
+      ->check(CLI::Range(0, 3));
   elements_app->add_flag("--json", json, "print as JSON");
   elements_app->add_option("--max-cells", max_cells, "refuse to make more cells")->capture_default_str();
   elements_app->callback([&] { status = elements(first, levels, space, split, json, max_cells); });
@@ -112,7 +120,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "argil: %s%s%s\n", error.where().c_str(), error.where().empty() ? "" : ": ", error.what());
     return k_bad_input;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
+    std::fprintf(stderr,
+                 "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
     return k_bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "argil: this is a bug of ours: %s\n", error.what());

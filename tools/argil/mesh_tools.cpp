@@ -44,7 +44,8 @@ void check_count(const Solid& solid, int levels, std::size_t max_cells) {
   const std::size_t count = refined_cell_count(solid, levels);
   if (count > max_cells)
     throw Error(ErrorCode::limit_exceeded,
-                fmt::format("level {} has {} cells, more than {}; lower --levels or raise --max-cells", levels, count, max_cells));
+                fmt::format("level {} has {} cells, more than {}; lower --levels or raise --max-cells", levels,
+                            count, max_cells));
 }
 
 void print_text(const ordered_json& json, int indent = 0) {
@@ -53,7 +54,8 @@ void print_text(const ordered_json& json, int indent = 0) {
       fmt::print("{:{}}{}\n", "", indent, key);
       print_text(value, indent + 2);
     } else {
-      fmt::print("{:{}}{:<{}} {}\n", "", indent, key, 24 - indent, value.is_string() ? value.get<std::string>() : value.dump());
+      fmt::print("{:{}}{:<{}} {}\n", "", indent, key, 24 - indent,
+                 value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
 }
@@ -93,15 +95,19 @@ int info(const std::filesystem::path& path, bool as_json) {
   json["inertia"] = ordered_json::array();
   for (Eigen::Index row = 0; row < 3; ++row)
     json["inertia"].push_back({mass.inertia(row, 0), mass.inertia(row, 1), mass.inertia(row, 2)});
-  if (as_json) fmt::print("{}\n", json.dump(2));
-  else print_text(json);
+  if (as_json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    print_text(json);
   if (worst.value < 0.1)
-    std::fprintf(stderr, "argil: cell %u is badly shaped (relative Jacobian %.3g at a quadrature point, below 0.1)\n",
+    std::fprintf(stderr,
+                 "argil: cell %u is badly shaped (relative Jacobian %.3g at a quadrature point, below 0.1)\n",
                  worst.cell.value, worst.value);
   return k_well;
 }
 
-int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit, std::size_t max_cells) {
+int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit,
+           std::size_t max_cells) {
   Built built = read_solid(in);
   check_count(built.solid, levels, max_cells);
   for (int level = 0; level < levels; ++level) {
@@ -143,8 +149,10 @@ int elements(const std::filesystem::path& path, int levels, const std::string& s
   json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
   json["unknowns"] = 3 * built.solid.vertex_count();
   json["volume"] = d.rest_volume;
-  if (as_json) fmt::print("{}\n", json.dump(2));
-  else print_text(json);
+  if (as_json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    print_text(json);
   return k_well;
 }
 
@@ -183,7 +191,8 @@ int render(const RenderArguments& arguments) {
 
 int help(const std::string& command) {
   if (command.empty()) {
-    fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}", sculpt::command_overview());
+    fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}",
+               sculpt::command_overview());
     return k_well;
   }
   const auto line = io::parse_session_line(command, "command", 1);

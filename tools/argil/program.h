@@ -1,6 +1,7 @@
 #pragma once
-// The subcommands of the program, one source file each. They throw argil::Error for what a user can mend; main() turns
-// that into a message and an exit status (SESSION.md): 0 all well, 1 an expectation failed, 2 bad input, 3 our own bug.
+// The subcommands of the program, one source file each. They throw argil::Error for what a user can mend; main()
+// turns that into a message and an exit status (SESSION.md): 0 all well, 1 an expectation failed, 2 bad input, 3
+// our own bug.
 
 #include <filesystem>
 #include <map>
@@ -25,7 +26,8 @@ int replay(const ReplayArguments& arguments);
 int diff(const std::filesystem::path& a, const std::filesystem::path& b, bool json);
 
 int info(const std::filesystem::path& mesh, bool json);
-int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit, std::size_t max_cells);
+int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit,
+           std::size_t max_cells);
 int elements(const std::filesystem::path& mesh, int levels, const std::string& space, int split, bool json,
              std::size_t max_cells);
 int convert(const std::filesystem::path& in, const std::filesystem::path& out);

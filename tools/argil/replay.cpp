@@ -24,12 +24,13 @@ double seconds() {
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw Error(ErrorCode::not_found, fmt::format("the session '{}' cannot be read; check its name", path.string()));
+    throw Error(ErrorCode::not_found,
+                fmt::format("the session '{}' cannot be read; check its name", path.string()));
   std::error_code failure;
   const auto size = std::filesystem::file_size(path, failure);
   if (failure || size > io::k_max_session_file)
-    throw Error(ErrorCode::limit_exceeded, fmt::format("the session '{}' is not a text file of at most {} MiB", path.string(),
-                                                       io::k_max_session_file >> 20));
+    throw Error(ErrorCode::limit_exceeded, fmt::format("the session '{}' is not a text file of at most {} MiB",
+                                                       path.string(), io::k_max_session_file >> 20));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -75,7 +76,8 @@ std::map<std::string, std::string> parsed_overrides(const std::vector<std::strin
   for (const std::string& text : texts) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw Error(ErrorCode::bad_input, fmt::format("--set wants COMMAND=ARGUMENTS, as in --set space=cubic; found '{}'", text));
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("--set wants COMMAND=ARGUMENTS, as in --set space=cubic; found '{}'", text));
     overrides[text.substr(0, equals)] = text.substr(equals + 1);
   }
   return overrides;
@@ -85,8 +87,10 @@ std::map<std::string, std::string> parsed_overrides(const std::vector<std::strin
 
 int replay(const ReplayArguments& arguments) {
   const std::string text = read_text(arguments.session);
-  const int threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const int threads =
+      arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
   ProgressBar bar(arguments.quiet);
   std::unique_ptr<sculpt::Renderer> renderer;
   if (arguments.pictures) renderer = view::make_offscreen_renderer();
