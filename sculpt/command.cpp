@@ -229,7 +229,7 @@ const Command& find_command(const io::SessionLine& line) {
   std::vector<std::string> names;
   for (const Command& c : table) names.push_back(c.name);
   throw Error(ErrorCode::not_found,
-              fmt::format("'{}' is not a command{}; `argil help` lists them all", name.text,
+              fmt::format("'{}' is not a command{} (`argil help` lists them all)", name.text,
                           near_names_hint(name.text, names)),
               io::place_of(line, name));
 }

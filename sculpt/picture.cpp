@@ -36,7 +36,21 @@ void add_lines(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positio
   }
 }
 
-void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& now) {
+// Where an applied force is drawn: its point, or the middle of its faces.
+Eigen::Vector3d point_of(const Document& document, const AppliedForce& force) {
+  if (force.faces.empty())
+    return fem::position(material_point(document, force.point).stencil, document.positions());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const std::uint32_t f : force.faces)
+    for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
+      sum += document.positions().col(static_cast<Eigen::Index>(v.index()));
+      ++count;
+    }
+  return sum / static_cast<double>(count);
+}
+
+void add_marks(Scene& scene, const Document& document, const PictureRequest& request, const Eigen::Matrix3Xd& now) {
   const double size = extent(now);
   // A pinned control point is shown where it holds the surface.
   const auto node = node_from_control_vertex(document);
@@ -45,26 +59,16 @@ void add_marks(Scene& scene, const Document& document, const Eigen::Matrix3Xd& n
   if (!document.state().pins->nodes.empty()) {
     for (const SoftPin& pin : document.state().pins->nodes) scene.pins.push_back(single(now.col(pin.node)));
   }
+  std::vector<std::array<Eigen::Vector3d, 2>> forces;
+  for (const AppliedForce& force : document.state().loads->forces)
+    forces.push_back({point_of(document, force), force.force});
+  if (request.tool_force) forces.push_back(*request.tool_force);
   double largest = 0;
-  for (const AppliedForce& force : document.state().loads->forces) largest = std::max(largest, force.force.norm());
-  for (const AppliedForce& force : document.state().loads->forces) {
-    if (!(force.force.norm() > 0)) continue;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    if (force.faces.empty()) {
-      at = fem::position(material_point(document, force.point).stencil, document.positions());
-    } else {
-      std::size_t count = 0;
-      for (const std::uint32_t f : force.faces)
-        for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
-          at += document.positions().col(static_cast<Eigen::Index>(v.index()));
-          ++count;
-        }
-      at /= static_cast<double>(count);
-    }
-    // A push ends at the surface and a pull begins there; both are longest for the largest force.
-    const Eigen::Vector3d arrow = 0.25 * size * force.force / largest;
-    scene.arrows.push_back({single(at), single(at + arrow)});
-  }
+  for (const auto& [at, force] : forces) largest = std::max(largest, force.norm());
+  // They begin where they act; the largest is a quarter of the solid long.
+  for (const auto& [at, force] : forces)
+    if (force.norm() > 1e-9 * largest)
+      scene.arrows.push_back({single(at), single(at + 0.25 * size * force / largest)});
 }
 
 Scene net_scene(const Document& document, const PictureRequest& request) {
@@ -139,7 +143,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
     }
   }
   if (request.cage) add_cage(scene, document.solid(), document.positions());
-  if (request.marks) add_marks(scene, document, positions);
+  if (request.marks) add_marks(scene, document, request, positions);
   return scene;
 }
 

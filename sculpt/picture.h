@@ -22,8 +22,9 @@ struct PictureRequest {
   std::optional<ClipPlane> clip;
   PictureStyle style = PictureStyle::solid;
   bool cage = false;
-  bool control_wire = false;              // outlines of the control cells only, on the refined surface
-  bool marks = true;                      // loads as arrows, pins as marks
+  bool control_wire = false;  // outlines of the control cells only, on the refined surface
+  bool marks = true;          // loads as arrows, pins as marks
+  std::optional<std::array<Eigen::Vector3d, 2>> tool_force;  // where [m] and what [N]: shown with the loads
   std::optional<std::uint32_t> net_cell;  // instead of the solid: this cell of the finest level in its 4×4×4 net
   int net_steps = 4;                      // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
 };

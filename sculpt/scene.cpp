@@ -206,6 +206,15 @@ void show_field(Scene& scene, std::span<const double> value_from_vertex, const s
   }
   if (surface.values.empty()) low = high = 0;
   if (low > 0 && low < 0.5 * high) low = 0;
+  // A field that is the same everywhere, but for rounding, gets one colour and not the whole range.
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (largest < 1e-12) {
+    low = 0;
+    high = unit == "%" ? 0.01 : 1;
+  } else if (high - low < 1e-5 * largest) {
+    low = std::min(low, 0.0);
+    high = std::max(high, 0.0);
+  }
   if (high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) {
     const double step = round_step(high - low, k_legend_parts);
     low = step * std::floor(low / step + 1e-9);

@@ -106,6 +106,7 @@ std::string Session::place() const {
 void Session::change(State next, subdiv::Delta delta) {
   done_.push_back({start_, next, std::move(delta)});
   undone_.clear();
+  tool_force_.reset();
   document_.assign(std::move(next));
 }
 
@@ -114,6 +115,7 @@ void Session::undo(long count) {
     throw Error(
         ErrorCode::bad_input,
         fmt::format("there are {} commands to undo, not {}; `undo all` takes back every one", done_.size(), count));
+  tool_force_.reset();
   for (long i = 0; i < count; ++i) {
     Done& last = done_.back();
     if (!last.delta.empty()) subdiv::undo(*last.after.solid, last.delta);
@@ -128,6 +130,7 @@ void Session::redo(long count) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("there are {} commands to redo, not {}; `redo all` brings back every one",
                             undone_.size(), count));
+  tool_force_.reset();
   for (long i = 0; i < count; ++i) {
     Done& next = undone_.back();
     if (!next.delta.empty()) subdiv::redo(*next.after.solid, next.delta);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct MeasureRecord {
   std::string name;
   double value = 0;
   int line = 0;
+};
+
+struct ToolForce {
+  Eigen::Vector3d at, force;  // [m], [N]
 };
 
 /// An `expect` that did not hold.
@@ -61,6 +66,10 @@ class Session {
 
   Document& document() { return document_; }
   const Document& document() const { return document_; }
+  /// The force of the last stroke where it held the body, until anything else changes: for pictures, not part of
+  /// the state.
+  const std::optional<ToolForce>& tool_force() const { return tool_force_; }
+  void show_tool_force(const ToolForce& force) { tool_force_ = force; }
   const SessionOptions& options() const { return options_; }
 
   // For commands.
@@ -107,6 +116,7 @@ class Session {
   Document document_;
   State start_;  // before the command that runs
   std::vector<Done> done_, undone_;
+  std::optional<ToolForce> tool_force_;
   std::vector<StepRecord> steps_;
   std::vector<FailedExpectation> failed_;
   std::vector<MeasureRecord> measures_;

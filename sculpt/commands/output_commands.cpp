@@ -97,6 +97,7 @@ void render(Session& session, const Arguments& arguments) {
                                                   : PictureStyle::solid;
   request.cage = arguments.has("cage");
   request.marks = !arguments.has("plain");
+  if (session.tool_force()) request.tool_force = {session.tool_force()->at, session.tool_force()->force};
   if (arguments.has("net")) request.net_cell = static_cast<std::uint32_t>(arguments.integer("net", 0));
   request.net_steps = static_cast<int>(arguments.integer("net_steps", 4));
   PictureOptions options;

@@ -60,12 +60,14 @@ void stroke(Session& session, const Arguments& arguments) {
   const Tick life = static_cast<Tick>(std::ceil(3 * step_ticks));
   channel.publish(felt(grip, from, document.positions(), life));
   double pending = document.state().tick_carry, largest = 0;
+  Eigen::Vector3d device_now = from;
   for (Tick tick = 1; tick <= ticks + hold && !session.stop_requested(); ++tick) {
     const ServoTick served = servo.tick(tick);
     const Eigen::Vector3d& at = served.sample.pose.position;
     pending += 1;
     while (pending >= step_ticks * (1 - 1e-12)) {
       pending -= step_ticks;
+      device_now = at;
       largest = std::max(largest, grip.force(at, document.positions()).norm());
       simulation_step(session, {grip.spring(at, document.positions())}, document.state().time_step);
       channel.publish(felt(grip, at, document.positions(), tick + life));
@@ -74,7 +76,9 @@ void stroke(Session& session, const Arguments& arguments) {
   State next = document.state();
   next.tick_carry = std::max(0.0, pending);
   session.print(fmt::format("pulled with up to {:.3g} N", largest));
+  const ToolForce force{grip.held(document.positions()), grip.force(device_now, document.positions())};
   session.change(std::move(next));
+  session.show_tool_force(force);
 }
 
 }  // namespace

@@ -211,6 +211,20 @@ TEST(View, FieldColoursFollowTheValues) {
   EXPECT_GT(low[2], 3 * low[1]);  // violet
 }
 
+TEST(ShowField, AFieldThatIsTheSameEverywhereGetsOneColour) {
+  // Rounding in the last digits must not be stretched over the whole range of colours.
+  sculpt::Scene scene;
+  scene.surface.vertex_from_surface = {0, 1, 2};
+  const std::vector<double> same{0.0186, 0.0186 * (1 + 1e-13), 0.0186 * (1 - 1e-13)};
+  sculpt::show_field(scene, same, "strain", "%");
+  EXPECT_EQ(scene.legend->low, 0);
+  EXPECT_NEAR(scene.legend->high, 0.02, 1e-12);
+  const std::vector<double> none{0, 0, 0};
+  sculpt::show_field(scene, none, "strain", "%");
+  EXPECT_EQ(scene.legend->low, 0);
+  EXPECT_GT(scene.legend->high, 0);
+}
+
 TEST(View, SamePictureTwiceAndAfterAnotherOne) {
   const Scene scene = scene_of(subdiv::box_grid(2, 2, 2, {1, 1, 1}));
   Scene other = scene_of(subdiv::wedge({1, 2, 3}));
