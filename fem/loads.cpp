@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -118,7 +117,13 @@ SurfacePatch surface_patch(const Discretization& discretization, const subdiv::S
       throw Error(ErrorCode::bad_input, "Surface loads act on boundary faces; this face is not one of them.",
                   fmt::format("face {}", f.value));
     const auto loop = subdiv::use_vertices(finest, finest.boundary_use(f));
-    assert(loop.size() == 4);
+    if (loop.size() != 4)
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("Surface loads are spread over quadrilaterals, and this face has {} corners. Refine at "
+                      "least once: levels 1.",
+                      loop.size()),
+          fmt::format("face {}", f.value));
     std::array<std::uint32_t, 4>& quad = result.quads.emplace_back();
     for (std::size_t c = 0; c < 4; ++c) quad[c] = discretization.surface_node_from_vertex[loop[c].index()];
   }

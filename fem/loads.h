@@ -18,7 +18,8 @@ struct SurfacePatch {
   std::vector<std::array<std::uint32_t, 4>> quads;
 };
 
-/// `faces` of refinement.solid(), each boundary. @throws Error (bad_input) naming a face that is not.
+/// `faces` of refinement.solid(), each a quadrilateral of the boundary. @throws Error (bad_input) naming
+/// a face that is not.
 [[nodiscard]] SurfacePatch surface_patch(const Discretization& discretization, const subdiv::Solid& finest,
                                          std::span<const subdiv::FaceId> faces);
 [[nodiscard]] SurfacePatch whole_surface(const Discretization& discretization, const subdiv::Solid& finest);

@@ -22,13 +22,18 @@ struct Format {
 constexpr Format k_formats[] = {
     {".mesh", read_medit, medit_text}, {".vtk", read_vtk, vtk_text}, {".vtu", read_vtu, vtu_bytes}};
 
-const Format& format_of(const std::filesystem::path& path) {
+const Format* find_format(const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
-  for (const Format& format : k_formats) {
-    if (format.ending == ending) return format;
-  }
+  for (const Format& format : k_formats)
+    if (format.ending == ending) return &format;
+  return nullptr;
+}
+
+const Format& format_of(const std::filesystem::path& path) {
+  if (const Format* format = find_format(path)) return *format;
   throw Error(ErrorCode::unsupported,
-              fmt::format("expected a name that ends in .mesh, .vtk or .vtu, found {}", in_quotes(ending)),
+              fmt::format("expected a name that ends in .mesh, .vtk or .vtu, found {}",
+                          in_quotes(path.extension().string())),
               path.string());
 }
 
@@ -66,6 +71,10 @@ void check_writable(const VolumeMesh& mesh) {
 }
 
 }  // namespace
+
+bool is_volume_format(const std::filesystem::path& path) {
+  return find_format(path) != nullptr;
+}
 
 VolumeMesh read_volume_mesh(const std::filesystem::path& path) {
   const Format& format = format_of(path);

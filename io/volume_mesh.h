@@ -25,6 +25,9 @@ struct VolumeMesh {
   std::vector<NamedField> cell_fields;
 };
 
+/// Whether the ending of the name is one of those below.
+[[nodiscard]] bool is_volume_format(const std::filesystem::path& path);
+
 /// Reads by the ending of the name: .mesh (MEDIT), .vtk (legacy), .vtu.
 /// @throws Error as above; (not_found) if there is no such file; (unsupported) for another ending or a kind of cell
 /// that is not held, by name.

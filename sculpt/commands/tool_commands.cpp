@@ -65,8 +65,12 @@ void stroke(Session& session, const Arguments& arguments) {
     const ServoTick served = servo.tick(tick);
     const Eigen::Vector3d& at = served.sample.pose.position;
     pending += 1;
-    while (pending >= step_ticks * (1 - 1e-12)) {
+    while (pending >= step_ticks * (1 - 1e-12) && !session.stop_requested()) {
       pending -= step_ticks;
+      // The carry is part of every step's state: a stroke that is stopped midway ends as its trace says.
+      State now = document.state();
+      now.tick_carry = std::max(0.0, pending);
+      document.assign(std::move(now));
       device_now = at;
       largest = std::max(largest, grip.force(at, document.positions()).norm());
       simulation_step(session, {grip.spring(at, document.positions())}, document.state().time_step);

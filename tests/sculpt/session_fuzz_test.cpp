@@ -148,12 +148,13 @@ TEST(SessionFuzz, EveryLineSucceedsOrChangesNothing) {
       SCOPED_TRACE(fmt::format("line {}: {}", i, line));
       const std::uint64_t before = session.hash();
       const std::size_t undo_depth = session->undo_depth(), redo_depth = session->redo_depth();
-      if (std::getenv("DBG")) fprintf(stderr, "%d %s\n", seed, line.c_str());
       try {
         session.run({line});
         ++passed;
+        if (std::getenv("DBG") && line.find(' ') != std::string::npos) fmt::print(stderr, "ok {}\n", line);
       } catch (const Error& error) {
         ++failed;
+        if (std::getenv("DBG")) fmt::print(stderr, "no {} :: {}\n", line, error.what());
         EXPECT_EQ(session.hash(), before) << error.what();
         EXPECT_EQ(session->undo_depth(), undo_depth);
         EXPECT_EQ(session->redo_depth(), redo_depth);

@@ -31,12 +31,16 @@ std::vector<TraceLine> read_trace(const std::filesystem::path& path) {
     TraceLine line;
     std::string rest;
     if (!(words >> line.line >> line.command >> line.step >> line.hash) || (words >> rest) ||
-        line.hash.size() != 16)
+        line.hash.size() != 16 || line.hash.find_first_not_of("0123456789abcdef") != std::string::npos)
       throw Error(ErrorCode::bad_input,
                   "this is not a line of a hash trace; make it with `argil replay --hash-trace`",
                   fmt::format("{}:{}:1", path.string(), lines.size() + 1));
     lines.push_back(std::move(line));
   }
+  if (lines.empty())
+    throw Error(ErrorCode::bad_input,
+                "expected the lines of a hash trace, found none; make it with `argil replay --hash-trace`",
+                path.string());
   return lines;
 }
 

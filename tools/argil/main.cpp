@@ -1,16 +1,44 @@
 // The command line of Argil: parses, calls a subcommand, and turns errors into messages and exit statuses.
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
+#include "sculpt/near_names.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
 
 namespace {
 
 using namespace argil::tools;
+
+// What CLI11 says, with the place where help is; it does not name a subcommand that there is not.
+std::string usage_message(const CLI::App& app, const CLI::Error& error, const std::string& first_word) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(subcommand->get_name());
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty() && !first_word.empty() && first_word[0] != '-')
+    return fmt::format("argil: '{}' is not a subcommand{}; `argil --help` lists them\n", first_word,
+                       argil::sculpt::near_names_hint(first_word, names));
+  const std::string name = chosen.empty() ? "argil" : "argil " + chosen.front()->get_name();
+  return fmt::format("{}: {}; `{} --help` explains\n", name, error.what(), name);
+}
+
+// A failed assertion ends with the exit status of our own bugs. Only what is safe in a signal handler is called.
+void report_abort(int) {
+  static const char message[] =
+      "argil: this is a bug of ours; a replay's journal.argil, in its --out folder, holds all commands before this "
+      "one\n";
+  (void)!write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(k_own_bug);
+}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -31,7 +59,7 @@ int run(int argc, char** argv) {
   replay_app->add_option("--threads", replaying.threads, "threads; the results are the same bits for any number")
       ->check(CLI::Range(1, 1024));
   replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::PositiveNumber);
   replay_app->add_option("--hash-trace", replaying.hash_trace, "write one state hash a step, for `argil diff`");
   replay_app->add_option("--set", replaying.overrides,
                          "stand in for a command of the session: --set space=cubic, --set levels=1");
@@ -103,6 +131,9 @@ int run(int argc, char** argv) {
   help_app->add_option("command", command, "a command of a session");
   help_app->callback([&] { status = help(command); });
 
+  const std::string first_word = argc > 1 ? argv[1] : "";
+  app.failure_message(
+      [&](const CLI::App*, const CLI::Error& error) { return usage_message(app, error, first_word); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -114,6 +145,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGABRT, report_abort);
   try {
     return run(argc, argv);
   } catch (const argil::Error& error) {
@@ -122,6 +154,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr,
                  "argil: out of memory; lower the level, or choose limits with --max-cells and --max-memory\n");
+    return k_bad_input;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "argil: %s; choose files and folders that exist and are yours\n", error.what());
     return k_bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "argil: this is a bug of ours: %s\n", error.what());

@@ -48,6 +48,14 @@ void check_count(const Solid& solid, int levels, std::size_t max_cells) {
                             count, max_cells));
 }
 
+// Asked before the work is done, not after it.
+void check_ending(const std::filesystem::path& out) {
+  if (!sculpt::is_surface_format(out) && !io::is_volume_format(out))
+    throw Error(ErrorCode::unsupported, fmt::format("expected a name that ends in .mesh, .vtk or .vtu, or in .obj, "
+                                                    ".ply or .stl for the boundary, found '{}'",
+                                                    out.string()));
+}
+
 void print_text(const ordered_json& json, int indent = 0) {
   for (const auto& [key, value] : json.items()) {
     if (value.is_object()) {
@@ -108,6 +116,7 @@ int info(const std::filesystem::path& path, bool as_json) {
 
 int refine(const std::filesystem::path& in, const std::filesystem::path& out, int levels, bool limit,
            std::size_t max_cells) {
+  check_ending(out);
   Built built = read_solid(in);
   check_count(built.solid, levels, max_cells);
   for (int level = 0; level < levels; ++level) {
@@ -157,6 +166,7 @@ int elements(const std::filesystem::path& path, int levels, const std::string& s
 }
 
 int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
+  check_ending(out);
   io::VolumeMesh mesh = io::read_volume_mesh(in);
   if (sculpt::is_surface_format(out)) {
     const Built built = read_solid(in);
@@ -176,16 +186,23 @@ int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
 
 int render(const RenderArguments& arguments) {
   const auto renderer = view::make_offscreen_renderer();
+  // Links that the user names are followed; those in a session's folder are not.
+  std::error_code failure;
+  const std::filesystem::path mesh = std::filesystem::canonical(arguments.mesh, failure);
+  if (failure)
+    throw Error(ErrorCode::not_found, "there is no such file; check the name and the folder",
+                arguments.mesh.string());
   sculpt::SessionOptions options;
-  options.read_root = arguments.mesh.parent_path();
+  options.read_root = mesh.parent_path();
   options.out = arguments.out.parent_path().empty() ? "." : arguments.out.parent_path();
   options.write_journal = false;
   options.renderer = renderer.get();
   options.print = [](const std::string& message) { std::fprintf(stderr, "argil: %s\n", message.c_str()); };
   sculpt::Session session(options);
-  session.run_line("open " + io::quote(arguments.mesh.filename().string()));
+  session.run_line("open " + io::quote(mesh.filename().string()));
   if (arguments.levels > 0) session.run_line(fmt::format("levels {}", arguments.levels));
-  session.run_line("render " + io::quote(arguments.out.filename().string()) + " " + arguments.options);
+  const std::string line = "render " + io::quote(arguments.out.filename().string()) + " " + arguments.options;
+  session.run_line(io::parse_session_line(line, arguments.out.string(), 1));
   return k_well;
 }
 

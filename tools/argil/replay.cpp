@@ -2,11 +2,11 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
+#include "io/file_bytes.h"
 #include "sculpt/session.h"
 #include "sculpt/summary.h"
 #include "subdiv/error.h"
@@ -22,16 +22,15 @@ double seconds() {
 }
 
 std::string read_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(ErrorCode::not_found,
-                fmt::format("the session '{}' cannot be read; check its name", path.string()));
   std::error_code failure;
-  const auto size = std::filesystem::file_size(path, failure);
-  if (failure || size > io::k_max_session_file)
-    throw Error(ErrorCode::limit_exceeded, fmt::format("the session '{}' is not a text file of at most {} MiB",
+  if (std::filesystem::is_directory(path, failure))
+    throw Error(ErrorCode::bad_input,
+                fmt::format("expected a session file, found the folder '{}'; name a file in it", path.string()));
+  if (std::filesystem::is_regular_file(path, failure) &&
+      std::filesystem::file_size(path, failure) > io::k_max_session_file)
+    throw Error(ErrorCode::limit_exceeded, fmt::format("the session '{}' is not a text of at most {} MiB; split it",
                                                        path.string(), io::k_max_session_file >> 20));
-  return {std::istreambuf_iterator<char>(file), {}};
+  return io::read_file(path);
 }
 
 // A bar that is redrawn in a terminal, and a line every tenth elsewhere. Messages go above it.
@@ -78,15 +77,40 @@ std::map<std::string, std::string> parsed_overrides(const std::vector<std::strin
     if (equals == std::string::npos || equals == 0)
       throw Error(ErrorCode::bad_input,
                   fmt::format("--set wants COMMAND=ARGUMENTS, as in --set space=cubic; found '{}'", text));
-    overrides[text.substr(0, equals)] = text.substr(equals + 1);
+    const std::string name = text.substr(0, equals);
+    (void)sculpt::find_command(io::parse_session_line(name, "--set " + name, 1));
+    if (!overrides.emplace(name, text.substr(equals + 1)).second)
+      throw Error(ErrorCode::bad_input, fmt::format("--set {} is given twice; which one is meant?", name));
   }
   return overrides;
+}
+
+// An override that no line waits for would do nothing. (These three come after `new` and `open`, if not before.)
+void check_used(const std::map<std::string, std::string>& overrides, const std::vector<io::SessionLine>& lines) {
+  for (const auto& [name, unused] : overrides) {
+    if (name == "space" || name == "model" || name == "integrator") continue;
+    if (std::none_of(lines.begin(), lines.end(),
+                     [&](const io::SessionLine& line) { return line.tokens[0].text == name; }))
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("--set {} stands in for lines of the session, and it has no `{}`; add one to it",
+                              name, name));
+  }
+}
+
+// What a replay writes must not be what it reads.
+void check_apart(const std::filesystem::path& session, const std::filesystem::path& written, const char* remedy) {
+  std::error_code failure;
+  if (std::filesystem::equivalent(session, written, failure))
+    throw Error(ErrorCode::refused,
+                fmt::format("'{}' is the session itself and would be overwritten; {}", written.string(), remedy));
 }
 
 }  // namespace
 
 int replay(const ReplayArguments& arguments) {
   const std::string text = read_text(arguments.session);
+  const auto overrides = parsed_overrides(arguments.overrides);
+  check_used(overrides, io::parse_session(text, arguments.session.string()));
   const int threads =
       arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
@@ -99,7 +123,7 @@ int replay(const ReplayArguments& arguments) {
   options.read_root = arguments.session.parent_path();
   options.out = arguments.out.empty() ? std::filesystem::path("out") / arguments.session.stem() : arguments.out;
   options.hash_trace = arguments.hash_trace;
-  options.overrides = parsed_overrides(arguments.overrides);
+  options.overrides = overrides;
   options.until_step = arguments.until;
   options.limits = arguments.limits;
   options.renderer = renderer.get();
@@ -107,6 +131,8 @@ int replay(const ReplayArguments& arguments) {
   options.print = [&](const std::string& message) { bar.message(message); };
   options.progress = [&](double fraction, const std::string& what) { bar.update(fraction, what); };
 
+  check_apart(arguments.session, options.out / "journal.argil", "choose another folder with --out");
+  check_apart(arguments.session, options.hash_trace, "choose another file with --hash-trace");
   sculpt::Session session(options);
   try {
     session.run_text(text, arguments.session.string());
@@ -120,7 +146,7 @@ int replay(const ReplayArguments& arguments) {
   }
   bar.clear();
   const std::string summary = sculpt::summary_json(session, arguments.session.stem().string(), threads);
-  std::ofstream(options.out / "summary.json") << summary << '\n';
+  io::write_file(options.out / "summary.json", summary + '\n');
   if (arguments.json) std::printf("%s\n", summary.c_str());
   for (const sculpt::FailedExpectation& failed : session.failed())
     std::fprintf(stderr, "%s: %s\n", failed.where.c_str(), failed.message.c_str());
