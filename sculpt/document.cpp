@@ -128,6 +128,7 @@ const fem::Discretization& Document::discretization() const {
   d.loads.reset();
   d.model.reset();
   d.shown_elements.reset();
+  d.fields.reset();  // in case what follows throws half way
   if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
     d.drop_from_discretization();
     d.discretization = std::make_unique<fem::Discretization>(
