@@ -180,8 +180,12 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
     Argument argument;
     argument.at = name;
     if (parameter->type == ArgumentType::expression) {
-      argument.expression = std::make_shared<const Expression>(
-          Expression::parse(std::span(tokens).subspan(i), line, variable_table()));
+      const auto rest = std::span(tokens).subspan(i);
+      argument.expression = std::make_shared<const Expression>(Expression::parse(rest, line, variable_table()));
+      if (!argument.expression->is_boolean())
+        fail(line, rest.front(),
+             fmt::format("{}: {} wants a condition, as in `where z < 0.1`, and this is a number", command.name,
+                         parameter->name));
       i = tokens.size();
     } else if (!parameter->flag) {
       for (int k = 0; k < parameter->count; ++k) {

@@ -67,7 +67,6 @@ struct Document::Derived {
   fem::Space space = fem::Space::standard;
   int split = -1;
   std::unique_ptr<fem::Discretization> discretization;
-  std::unique_ptr<subdiv::Stencils> transposed;
   std::unique_ptr<fem::ShownElements> shown_elements;
 
   std::string model_name;
@@ -84,7 +83,6 @@ struct Document::Derived {
     integrator.reset();
     loads.reset();
     model.reset();
-    transposed.reset();
     shown_elements.reset();
     discretization.reset();
   }
@@ -130,11 +128,11 @@ const fem::Discretization& Document::discretization() const {
   d.loads.reset();
   d.model.reset();
   d.shown_elements.reset();
+  d.fields.reset();  // in case what follows throws half way
   if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
     d.drop_from_discretization();
     d.discretization = std::make_unique<fem::Discretization>(
         fem::discretize(refined, rest(), nodal, {.space = state_.space, .split = state_.split}));
-    d.transposed = std::make_unique<subdiv::Stencils>(subdiv::transpose(d.discretization->nodes.rows));
   }
   d.rest = state_.rest;
   d.fields = state_.fields;
@@ -160,7 +158,7 @@ fem::System Document::system() const {
   const Derived& d = *derived_;
   fem::System system;
   system.rows = &d.discretization->nodes.rows;
-  system.rows_transposed = d.transposed.get();
+  system.rows_transposed = &d.discretization->rows_transposed;
   system.model = &force_model;
   system.rest_nodes = &d.discretization->rest_nodes;
   system.mass = &d.discretization->mass;

@@ -92,7 +92,7 @@ struct State {
   fem::Method method = fem::Method::bdf2;
   int newton_cap = 3;
   double time_step = 1.0 / 60;  // [s]
-  double tick_carry = 0;        // part of a device tick [0, 1) that a step left over
+  double tick_carry = 0;  // device ticks since the last step, less than a step: the next stroke goes on from there
   Tool tool;
 };
 

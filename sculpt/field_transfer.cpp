@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
 #include <vector>
 
 #include "subdiv/radial_edge.h"
@@ -110,8 +111,16 @@ LevelMap finer_map(const Refinement& before, const Refinement& after, int fine_l
 std::shared_ptr<const Fields> fields_at_level(const Fields& fields, const Refinement& from, const Refinement& to) {
   auto result = std::make_shared<Fields>(fields);
   for (int level = from.finest(); level < to.finest(); ++level)
-    for (auto& values : result->values)
-      values = apply(to.step_stencils[static_cast<std::size_t>(level) + 1], values);
+    for (auto& values : result->values) {
+      // Means lie between the least and the largest; cut there, rounding neither leaves a range nor blurs a
+      // constant.
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const VertexId v : to.levels[static_cast<std::size_t>(level)].vertices()) {
+        low = std::min(low, values[static_cast<Eigen::Index>(v.index())]);
+        high = std::max(high, values[static_cast<Eigen::Index>(v.index())]);
+      }
+      values = apply(to.step_stencils[static_cast<std::size_t>(level) + 1], values).cwiseMax(low).cwiseMin(high);
+    }
   for (int level = from.finest(); level > to.finest(); --level) {
     // The first fine vertices stand for the coarse ones.
     const Solid& coarse = from.levels[static_cast<std::size_t>(level) - 1];

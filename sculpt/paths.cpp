@@ -12,8 +12,10 @@ namespace fs = std::filesystem;
 
 fs::path path_beneath(const fs::path& root, const std::string& name, const std::string& what) {
   const auto refuse = [&](const char* why) {
+    std::string shown = name;
+    std::replace(shown.begin(), shown.end(), '\0', '?');  // a message must not end there
     throw Error(ErrorCode::refused,
-                fmt::format("'{}' {}; a session reaches only files beneath {}", name, why, what));
+                fmt::format("'{}' {}; a session reaches only files beneath {}", shown, why, what));
   };
   const fs::path relative(name);
   if (name.empty() || name.find('\0') != std::string::npos) refuse("is not a file name");
@@ -21,8 +23,10 @@ fs::path path_beneath(const fs::path& root, const std::string& name, const std::
   for (const fs::path& part : relative)
     if (part == "..") refuse("climbs out with '..'");
   std::error_code failure;
-  const fs::path base = fs::weakly_canonical(root.empty() ? fs::path(".") : root, failure);
+  fs::path base = fs::weakly_canonical(root.empty() ? fs::path(".") : root, failure);
   if (failure) refuse("has no folder to stand in");
+  if (!base.has_filename() && base.has_relative_path())
+    base = base.parent_path();  // "folder/" that is not there yet
   const fs::path path = fs::weakly_canonical(base / relative, failure);
   if (failure) refuse("cannot be followed");
   const auto differs = std::mismatch(base.begin(), base.end(), path.begin(), path.end());

@@ -144,14 +144,16 @@ std::vector<std::uint32_t> matching(const Document& document, ElementType type, 
   return ids;
 }
 
-Eigen::VectorXd values_at_nodes(const Document& document, const Expression& formula) {
+Eigen::VectorXd values_at_nodes(const Document& document, const Expression& formula,
+                                const std::vector<std::uint32_t>& nodes) {
   const Refinement& refined = document.refinement();
   const Solid& finest = refined.solid();
   const Eigen::Matrix3Xd rest = apply(refined.stencils.back(), document.rest());
   const Eigen::Matrix3Xd present = apply(refined.stencils.back(), document.positions());
   const Asker asker(formula, rest, present, document.state().fields.get(), nullptr);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(finest.vertex_capacity()));
-  for (const VertexId v : finest.vertices()) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const VertexId v{nodes[i]};
     const double value = asker.value({&v, 1}, finest.is_boundary(v), finest.vertex_valence(v));
     if (!std::isfinite(value)) {
       const auto at = rest.col(static_cast<Eigen::Index>(v.index()));
@@ -160,7 +162,7 @@ Eigen::VectorXd values_at_nodes(const Document& document, const Expression& form
                               "divisions by zero there",
                               at[0], at[1], at[2]));
     }
-    values[static_cast<Eigen::Index>(v.index())] = value;
+    values[static_cast<Eigen::Index>(i)] = value;
   }
   return values;
 }

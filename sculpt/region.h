@@ -22,8 +22,9 @@ enum class Asked { centroid, any_vertex, all_vertices };
                                                   const Expression* where, bool interior = false,
                                                   Asked asked = Asked::centroid);
 
-/// A formula's value at every node. @throws Error (bad_input) at the first node where it is not finite.
-[[nodiscard]] Eigen::VectorXd values_at_nodes(const Document& document, const Expression& formula);
+/// A formula's value at each of `nodes`. @throws Error (bad_input) at the first node where it is not finite.
+[[nodiscard]] Eigen::VectorXd values_at_nodes(const Document& document, const Expression& formula,
+                                              const std::vector<std::uint32_t>& nodes);
 
 /// The finest-level node that a control vertex becomes.
 [[nodiscard]] std::vector<std::uint32_t> node_from_control_vertex(const Document& document);

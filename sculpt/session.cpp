@@ -78,15 +78,22 @@ void Session::execute(const io::SessionLine& line) {
   const Command& command = find_command(line);
   const Arguments arguments = bind(command, line);
   start_ = document_.state();
-  const std::size_t depth = done_.size();
+  const std::size_t depth = done_.size(), steps = steps_.size();
+  const auto take_back = [&] {  // a failed command changes nothing
+    if (done_.size() != depth || command.effect != Effect::state) return;
+    document_.assign(start_);
+    steps_.resize(steps);
+  };
   try {
     command.run(*this, arguments);
   } catch (const Error& error) {
-    if (done_.size() == depth && command.effect == Effect::state)
-      document_.assign(start_);  // a failed command changes nothing
+    take_back();
     if (!error.where().empty() && error.where().find(':') != std::string::npos) throw;
     const std::string detail = error.where().empty() ? "" : " (" + error.where() + ")";
     throw Error(error.code(), command.name + ": " + error.what() + detail, place());
+  } catch (...) {
+    take_back();
+    throw;
   }
   journal(io::format_line(line.tokens));
   trace(command.name);
@@ -142,8 +149,8 @@ std::filesystem::path Session::path_to_write(const std::string& name) const {
   std::error_code failure;
   std::filesystem::create_directories(path.parent_path(), failure);
   if (failure)
-    throw Error(ErrorCode::bad_input, fmt::format("the folder of '{}' cannot be made ({}); choose another name", name,
-                                                  failure.message()));
+    throw Error(ErrorCode::bad_input, fmt::format("the folder of '{}' cannot be made ({}); choose another name",
+                                                  name, failure.message()));
   return path;
 }
 
@@ -160,9 +167,15 @@ void Session::step_done(const StepRecord& record) {
   trace("step");
   if (line_count_ > 0)
     progress(static_cast<double>(lines_) / static_cast<double>(line_count_), fmt::format("step {}", steps_.size()));
-  if (steps_.size() >= options_.limits.steps)
+}
+
+void Session::require_steps(double count) const {
+  const double taken = static_cast<double>(steps_.size());
+  if (options_.until_step >= 0) count = std::min(count, static_cast<double>(options_.until_step) - taken);
+  if (taken + count > static_cast<double>(options_.limits.steps))
     throw Error(ErrorCode::limit_exceeded,
-                fmt::format("the session takes more than {} steps; raise --max-steps", options_.limits.steps));
+                fmt::format("{:.0f} steps after {:.0f} are more than {}; raise --max-steps", count, taken,
+                            options_.limits.steps));
 }
 
 bool Session::stop_requested() const {

@@ -83,7 +83,10 @@ class Session {
   std::filesystem::path path_to_write(const std::string& name) const;
   void print(const std::string& message) const;
   void progress(double fraction, const std::string& what) const;
-  /// Called for every simulation step: counts, limits, traces. @throws Error (limit_exceeded).
+  /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
+  /// (limit_exceeded).
+  void require_steps(double count) const;
+  /// Called for every simulation step: counts and traces.
   void step_done(const StepRecord& record);
   /// True once `until_step` is reached: long commands end early.
   bool stop_requested() const;

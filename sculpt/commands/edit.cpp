@@ -65,8 +65,6 @@ Selection acted_on(const Session& session, const Arguments& arguments, std::span
   for (const ElementType type : types) wanted += (wanted.empty() ? "" : " or ") + std::string(word(type));
   Selection selection;
   if (const Expression* where = arguments.expression("where")) {
-    if (!where->is_boolean())
-      throw Error(ErrorCode::bad_input, "where wants a condition, as in `where z < 0.1`, and this is a number");
     selection.type = types[0];
     selection.ids = matching(document, types[0], where);
   } else {

@@ -1,7 +1,20 @@
 #include "sculpt/commands/commands.h"
 #include "sculpt/session.h"
 
+#include "subdiv/error.h"
+
 namespace argil::sculpt {
+
+namespace {
+
+long wanted(const Arguments& arguments, std::size_t depth) {
+  if (!arguments.has("all")) return arguments.integer("count", 1);
+  if (arguments.has("count"))
+    throw Error(ErrorCode::bad_input, "a count and all exclude each other; leave one out");
+  return static_cast<long>(depth);
+}
+
+}  // namespace
 
 std::vector<Command> history_commands() {
   const Parameter count{.name = "count",
@@ -17,21 +30,15 @@ std::vector<Command> history_commands() {
        .parameters = {count, all},
        .example = "undo 2",
        .effect = Effect::history,
-       .run =
-           [](Session& session, const Arguments& arguments) {
-             session.undo(arguments.has("all") ? static_cast<long>(session.undo_depth())
-                                               : arguments.integer("count", 1));
-           }},
+       .run = [](Session& session,
+                 const Arguments& arguments) { session.undo(wanted(arguments, session.undo_depth())); }},
       {.name = "redo",
        .summary = "Brings back what undo took.",
        .parameters = {count, all},
        .example = "redo 2",
        .effect = Effect::history,
-       .run =
-           [](Session& session, const Arguments& arguments) {
-             session.redo(arguments.has("all") ? static_cast<long>(session.redo_depth())
-                                               : arguments.integer("count", 1));
-           }},
+       .run = [](Session& session,
+                 const Arguments& arguments) { session.redo(wanted(arguments, session.redo_depth())); }},
   };
 }
 

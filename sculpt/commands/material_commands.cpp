@@ -37,12 +37,14 @@ void set_field(Session& session, const Arguments& arguments) {
   const Expression& formula = *arguments.expression("value");
   if (formula.is_boolean())
     throw Error(ErrorCode::bad_input, "set wants a number or a formula, and this is a condition");
-  const Eigen::VectorXd values = values_at_nodes(session.document(), formula);
+  const auto nodes = covered_nodes(session, arguments);
+  const Eigen::VectorXd values = values_at_nodes(session.document(), formula, nodes);
   State next = session.document().state();
   auto fields = std::make_shared<Fields>(*next.fields);
-  for (const std::uint32_t node : covered_nodes(session, arguments)) {
-    check_range(info, values[node], fmt::format(" at node {}", node));
-    (*fields)[info.name][node] = values[node];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double value = values[static_cast<Eigen::Index>(i)];
+    check_range(info, value, fmt::format(" at node {}", nodes[i]));
+    (*fields)[info.name][nodes[i]] = value;
   }
   next.fields = fields;
   session.change(std::move(next));
@@ -57,6 +59,8 @@ void paint(Session& session, const Arguments& arguments) {
                 "paint wants either `value V` or `scale S`, as in `paint young_modulus scale 10`");
   if (arguments.has("at") != arguments.has("radius"))
     throw Error(ErrorCode::bad_input, "a brush wants both `at X Y Z` and `radius R`");
+  if (arguments.has("falloff") && !arguments.has("at"))
+    throw Error(ErrorCode::bad_input, "a falloff is a brush's; add `at X Y Z radius R`");
   if (sets) check_range(info, arguments.number("value"), "");
   const Document& document = session.document();
   const Eigen::Matrix3Xd nodes = subdiv::apply(document.refinement().stencils.back(), document.positions());
@@ -84,6 +88,7 @@ void paint(Session& session, const Arguments& arguments) {
 }
 
 void set_model(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   next.model = arguments.word("model");
   session.change(std::move(next));

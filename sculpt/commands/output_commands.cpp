@@ -39,6 +39,11 @@ void print_measure(Session& session, const Arguments& arguments) {
 }
 
 void expect(Session& session, const Arguments& arguments) {
+  if (!arguments.has("value") && !arguments.has("above") && !arguments.has("below"))
+    throw Error(ErrorCode::bad_input,
+                "expect wants a value, `above V` or `below V`, as in `expect volume 0.03 within 1%`");
+  if (arguments.has("within") && !arguments.has("value"))
+    throw Error(ErrorCode::bad_input, "within wants the value expected, as in `expect volume 0.03 within 1%`");
   const double value = measured_value(session, arguments);
   const std::string& name = arguments.word("measure");
   const std::string unit = unit_of(name);
@@ -47,28 +52,19 @@ void expect(Session& session, const Arguments& arguments) {
   const auto fail = [&](const std::string& expected) {
     session.expectation_failed(fmt::format("expected {} {}{}, found {:.10g}{}", name, expected, unit, value, unit));
   };
-  bool checked = false;
   if (arguments.has("value")) {
     const double expected = arguments.number("value");
     // "1%" is a share of the expected value, a plain number an absolute bound.
     const bool relative = arguments.has("within") && arguments.at("within").at.text.ends_with('%');
     const double within = arguments.number("within", 0) * (relative ? std::abs(expected) : 1);
-    checked = true;
     if (!(std::abs(value - expected) <= within))
       fail(fmt::format("{:.10g}{}", expected,
                        arguments.has("within") ? " within " + arguments.at("within").at.text : std::string{}));
   }
-  if (arguments.has("above")) {
-    checked = true;
-    if (!(value > arguments.number("above"))) fail(fmt::format("above {:.10g}", arguments.number("above")));
-  }
-  if (arguments.has("below")) {
-    checked = true;
-    if (!(value < arguments.number("below"))) fail(fmt::format("below {:.10g}", arguments.number("below")));
-  }
-  if (!checked)
-    throw Error(ErrorCode::bad_input,
-                "expect wants a value, `above V` or `below V`, as in `expect volume 0.03 within 1%`");
+  if (arguments.has("above") && !(value > arguments.number("above")))
+    fail(fmt::format("above {:.10g}", arguments.number("above")));
+  if (arguments.has("below") && !(value < arguments.number("below")))
+    fail(fmt::format("below {:.10g}", arguments.number("below")));
 }
 
 void save(Session& session, const Arguments& arguments) {

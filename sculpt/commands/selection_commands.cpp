@@ -37,17 +37,35 @@ bool bends(const Solid& solid, const Eigen::Matrix3Xd& positions, EdgeId edge, d
          outward_normal(solid, positions, faces[0]).dot(outward_normal(solid, positions, faces[1])) < cosine;
 }
 
+// Flags that contradict each other, or that would do nothing.
+void check_flags(const Arguments& arguments, ElementType type) {
+  if (arguments.has("any") && arguments.has("all"))
+    throw Error(ErrorCode::bad_input, "any and all exclude each other; leave one out");
+  if (arguments.has("add") && arguments.has("remove"))
+    throw Error(ErrorCode::bad_input, "add and remove exclude each other; leave one out");
+  if ((arguments.has("any") || arguments.has("all")) && !arguments.has("where"))
+    throw Error(ErrorCode::bad_input, "any and all say how a condition is asked; add `where …`");
+  if (arguments.has("interior") && type != ElementType::faces)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("interior is for faces; {} inside the solid are chosen in any case", word(type)));
+  if (arguments.has("none"))
+    for (const char* other : {"where", "interior", "add", "remove", "angle", "set", "as"})
+      if (arguments.has(other))
+        throw Error(ErrorCode::bad_input, fmt::format("none chooses nothing; leave out {}", other));
+}
+
 void select(Session& session, const Arguments& arguments) {
   const Document& document = session.document();
   State next = document.state();
   Selection selection;
   selection.type = element_type(arguments.word("type"));
+  require_solid(session);
+  check_flags(arguments, selection.type);
   if (arguments.has("none")) {
     next.selection = std::make_shared<Selection>(selection);
     session.change(std::move(next));
     return;
   }
-  require_solid(session);
   const Asked asked = arguments.has("any")   ? Asked::any_vertex
                       : arguments.has("all") ? Asked::all_vertices
                                              : Asked::centroid;

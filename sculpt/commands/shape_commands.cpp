@@ -43,10 +43,21 @@ State state_of(Built built) {
   return state;
 }
 
+// Topology, stencils, elements and one step of a box of 373,248 cells took 2.5 GB.
+constexpr double k_bytes_per_cell = 7000;
+
 void check_cells(const Session& session, double cells) {
-  if (cells > static_cast<double>(session.options().limits.cells))
-    throw Error(ErrorCode::limit_exceeded, fmt::format("this makes {:.0f} cells, more than {}; raise --max-cells",
-                                                       cells, session.options().limits.cells));
+  const Limits& limits = session.options().limits;
+  if (cells > static_cast<double>(limits.cells))
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("this makes {:.0f} cells, more than {}; lower the level or the counts, "
+                            "or raise --max-cells",
+                            cells, limits.cells));
+  if (k_bytes_per_cell * cells > static_cast<double>(limits.memory))
+    throw Error(ErrorCode::limit_exceeded,
+                fmt::format("{:.0f} cells would need about {:.2g} GB; lower the level or the counts, "
+                            "or raise --max-memory",
+                            cells, 1e-9 * k_bytes_per_cell * cells));
 }
 
 void new_solid(Session& session, const Arguments& arguments) {
@@ -255,12 +266,6 @@ void set_level(Session& session, const Arguments& arguments) {
   State next = document.state();
   const int level = static_cast<int>(arguments.integer("level", 0));
   check_cells(session, static_cast<double>(refined_cell_count(document.solid(), level)));
-  // Topology, stencils, elements and one step of a box of 373,248 cells took 2.5 GB: about 7 kB a cell.
-  const double bytes = 7e3 * static_cast<double>(refined_cell_count(document.solid(), level));
-  if (bytes > static_cast<double>(document.limits.memory))
-    throw Error(
-        ErrorCode::limit_exceeded,
-        fmt::format("level {} would need about {:.1f} GB; lower it or raise --max-memory", level, 1e-9 * bytes));
   if (level == next.level) {
     session.change(std::move(next));
     return;
@@ -306,6 +311,7 @@ void set_level(Session& session, const Arguments& arguments) {
 }
 
 void set_space(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   next.space = arguments.word("space") == "cubic" ? fem::Space::cubic : fem::Space::standard;
   next.split = static_cast<int>(arguments.integer("split", next.split));
@@ -375,7 +381,11 @@ std::vector<Command> shape_commands() {
              .low = -1e9,
              .high = 1e9},
             {.name = "steps", .type = ArgumentType::integer, .help = "cells along the way", .low = 1, .high = 1000},
-            {.name = "along", .help = "direction; else the mean normal of the faces", .count = 3},
+            {.name = "along",
+             .help = "direction; else the mean normal of the faces",
+             .count = 3,
+             .low = -1e9,
+             .high = 1e9},
             {.name = "scale",
              .help = "size of the far end against the near one, about the middle of each patch",
              .low = 1e-3,

@@ -22,6 +22,8 @@ void pin(Session& session, const Arguments& arguments) {
   State next = document.state();
   auto pins = std::make_shared<Pins>(*next.pins);
   const bool off = arguments.has("off");
+  if (off && arguments.has("stiffness"))
+    throw Error(ErrorCode::bad_input, "what is released has no stiffness; leave it out");
   if (selection.type == ElementType::nodes) {
     std::erase_if(pins->nodes, [&](const SoftPin& p) {
       return std::binary_search(selection.ids.begin(), selection.ids.end(), p.node);
@@ -68,6 +70,7 @@ void pin(Session& session, const Arguments& arguments) {
 }
 
 void set_gravity(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
   loads->gravity = arguments.vector("acceleration");
@@ -79,6 +82,10 @@ void apply_force(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
+  if (arguments.has("clear") && (arguments.has("force") || arguments.has("at") || arguments.has("where")))
+    throw Error(ErrorCode::bad_input, "`force clear` takes all forces away; give a new one on a line of its own");
+  if (arguments.has("at") && arguments.has("where"))
+    throw Error(ErrorCode::bad_input, "a force acts at a point or on faces; leave out `at` or `where`");
   if (arguments.has("clear")) {
     loads->forces.clear();
     next.loads = loads;
@@ -109,6 +116,7 @@ void apply_force(Session& session, const Arguments& arguments) {
 }
 
 void set_integrator(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   next.method = arguments.word("method") == "bdf2" ? fem::Method::bdf2 : fem::Method::implicit_euler;
   next.newton_cap = static_cast<int>(arguments.integer("newton", next.newton_cap));
@@ -118,9 +126,12 @@ void set_integrator(Session& session, const Arguments& arguments) {
 void step(Session& session, const Arguments& arguments) {
   require_simulation(session);
   const long count = arguments.integer("count", 1);
+  session.require_steps(static_cast<double>(count));
   State first = session.document().state();
-  first.time_step = arguments.number("dt", first.time_step);
-  const double time_step = first.time_step;
+  const double time_step = arguments.number("dt", first.time_step);
+  if (time_step != first.time_step)
+    first.tick_carry = 0;  // what was left over was part of a step of another length
+  first.time_step = time_step;
   session.document().assign(std::move(first));
   for (long i = 0; i < count && !session.stop_requested(); ++i) simulation_step(session, {}, time_step);
   session.change(session.document().state());
@@ -147,6 +158,12 @@ void commit(Session& session, const Arguments&) {
   Document& document = session.document();
   const double mass_before = document.discretization().total_mass;
   State next = document.state();
+  // A force at a point stays with its matter, which has a new rest position.
+  auto loads = std::make_shared<AppliedLoads>(*next.loads);
+  for (AppliedForce& force : loads->forces)
+    if (force.faces.empty())
+      force.point = fem::position(material_point(document, force.point).stencil, document.positions());
+  next.loads = loads;
   next.rest = std::make_shared<Eigen::Matrix3Xd>(next.motion->positions);
   auto motion = std::make_shared<fem::BodyState>();
   motion->positions = next.motion->positions;

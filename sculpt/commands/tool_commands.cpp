@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sculpt/commands/commands.h"
+#include "sculpt/commands/edit.h"
 #include "sculpt/force_tools/pull.h"
 #include "sculpt/haptics/scripted_device.h"
 #include "sculpt/haptics/servo.h"
@@ -15,6 +16,7 @@ namespace argil::sculpt {
 namespace {
 
 void set_tool(Session& session, const Arguments& arguments) {
+  require_solid(session);
   State next = session.document().state();
   next.tool.name = arguments.word("tool");
   next.tool.radius = arguments.number("radius", next.tool.radius);
@@ -40,6 +42,8 @@ void stroke(Session& session, const Arguments& arguments) {
   Document& document = session.document();
   const Eigen::Vector3d from = arguments.vector("from"), to = arguments.vector("to");
   const Tick ticks = arguments.integer("ticks", 500), hold = arguments.integer("hold", 0);
+  session.require_steps(std::floor((static_cast<double>(ticks + hold) + document.state().tick_carry) *
+                                   k_tick_seconds / document.state().time_step));
   const PullGrip grip(document, document.state().tool, from);
 
   const Ease ease = arguments.word("ease", "linear") == "smooth" ? Ease::smooth : Ease::linear;
