@@ -12,8 +12,6 @@ using subdiv::CellId;
 using subdiv::Solid;
 using subdiv::VertexId;
 
-namespace {
-
 void check_quadrilateral(const Solid& solid, subdiv::FaceId face, CellId cell) {
   const std::size_t corners = solid.face_vertices(face).size();
   if (corners == 4) return;
@@ -24,8 +22,6 @@ void check_quadrilateral(const Solid& solid, subdiv::FaceId face, CellId cell) {
                   corners),
       fmt::format("level 0, cell {}", cell.value));
 }
-
-}  // namespace
 
 LinearMesh mesh_linearly(const LinearCells& from) {
   LinearMesh mesh;
