@@ -12,6 +12,8 @@ using subdiv::CellId;
 using subdiv::Solid;
 using subdiv::VertexId;
 
+namespace {
+
 void check_quadrilateral(const Solid& solid, subdiv::FaceId face, CellId cell) {
   const std::size_t corners = solid.face_vertices(face).size();
   if (corners == 4) return;
@@ -21,6 +23,13 @@ void check_quadrilateral(const Solid& solid, subdiv::FaceId face, CellId cell) {
                   "cell has {} corners. Refine at least once: levels 1.",
                   corners),
       fmt::format("level 0, cell {}", cell.value));
+}
+
+}  // namespace
+
+void check_quadrilaterals(const Solid& solid) {
+  for (const CellId c : solid.cells())
+    for (const subdiv::FaceUseId use : solid.cell_face_uses(c)) check_quadrilateral(solid, subdiv::face_of(use), c);
 }
 
 LinearMesh mesh_linearly(const LinearCells& from) {

@@ -22,10 +22,9 @@ struct LinearMesh {
   subdiv::Stencils centres;  // virtual centres in the vertices
 };
 
-/// @throws Error (unsupported) naming `cell`, which has the face, unless it is a quadrilateral.
-void check_quadrilateral(const subdiv::Solid& solid, subdiv::FaceId face, subdiv::CellId cell);
-
 /// @throws Error (unsupported) naming a cell with a face that is not a quadrilateral, which only level 0 has.
 [[nodiscard]] LinearMesh mesh_linearly(const LinearCells& from);
+/// @throws as above, for the cells of the whole solid.
+void check_quadrilaterals(const subdiv::Solid& solid);
 
 }  // namespace argil::fem
