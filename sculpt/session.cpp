@@ -31,7 +31,8 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
     trace_.open(options_.hash_trace, std::ios::trunc);
     if (!trace_)
       throw Error(ErrorCode::bad_input,
-                  fmt::format("the hash trace '{}' cannot be written", options_.hash_trace.string()));
+                  fmt::format("the hash trace '{}' cannot be written; choose another file with --hash-trace",
+                              options_.hash_trace.string()));
   }
 }
 

@@ -87,6 +87,12 @@ const BadCall k_calls[] = {
     {"RenderSize", {"render", "box.mesh", "p.png", "--with", "size 100"}, {"size wants 2 values"}},
     {"RenderSizeNone", {"render", "box.mesh", "p.png", "--with", "size 0 100"}, {"size"}},
     {"RenderTwoLines", {"render", "box.mesh", "p.png", "--with", "cage\nsave x.obj"}, {"control character"}},
+    {"RenderTooFine",
+     {"render", "box.mesh", "p.png", "--levels", "8"},
+     {"--levels", "134217728 cells", "--max-cells"}},
+    {"RenderLimit",
+     {"render", "box.mesh", "p.png", "--levels", "1", "--max-cells", "63"},
+     {"64 cells, more than 63"}},
     // Traces.
     {"TraceMissing", {"diff", "a.trace", "none"}, {"'none'", "--hash-trace"}},
     {"TraceIsAFolder", {"diff", "folder", "a.trace"}, {"'folder'", "--hash-trace"}},
@@ -107,6 +113,9 @@ const BadCall k_calls[] = {
      {"replay", "session.argil", "--hash-trace", "session.argil"},
      {"overwritten", "--hash-trace"}},
     {"JournalOntoTheSession", {"replay", "folder/journal.argil", "--out", "folder"}, {"overwritten", "--out"}},
+    {"TraceOntoAFolder",
+     {"replay", "session.argil", "--out", "folder", "--hash-trace", "folder"},
+     {"'folder'", "--hash-trace"}},
     // --set.
     {"SetWithoutValue", {"replay", "session.argil", "--set", "space"}, {"COMMAND=ARGUMENTS", "'space'"}},
     {"SetWithoutName", {"replay", "session.argil", "--set", "=cubic"}, {"COMMAND=ARGUMENTS"}},

@@ -125,6 +125,7 @@ int run(int argc, char** argv) {
   render_app->add_option("--levels", rendering.levels, "refinements")->check(CLI::Range(0, 8));
   render_app->add_option("--with", rendering.options,
                          "arguments of the session command `render`, as in --with \"cage size 800 600\"");
+  render_app->add_option("--max-cells", rendering.max_cells, "refuse to make more cells")->capture_default_str();
   render_app->callback([&] { status = render(rendering); });
 
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");

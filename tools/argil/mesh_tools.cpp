@@ -198,11 +198,13 @@ int render(const RenderArguments& arguments) {
   options.read_root = mesh.parent_path();
   options.out = arguments.out.parent_path().empty() ? "." : arguments.out.parent_path();
   options.write_journal = false;
+  options.limits.cells = arguments.max_cells;
   options.renderer = renderer.get();
   options.print = [](const std::string& message) { std::fprintf(stderr, "argil: %s\n", message.c_str()); };
   sculpt::Session session(options);
   session.run_line("open " + io::quote(mesh.filename().string()));
-  if (arguments.levels > 0) session.run_line(fmt::format("levels {}", arguments.levels));
+  if (arguments.levels > 0)
+    session.run_line(io::parse_session_line(fmt::format("levels {}", arguments.levels), "--levels", 1));
   const std::string line = "render " + io::quote(arguments.out.filename().string()) + " " + arguments.options;
   session.run_line(io::parse_session_line(line, "--with", 1));
   return k_well;

@@ -36,6 +36,7 @@ struct RenderArguments {
   std::filesystem::path mesh, out;
   int levels = 0;
   std::string options;  // of the session command `render`
+  std::size_t max_cells = sculpt::Limits{}.cells;
 };
 int render(const RenderArguments& arguments);
 
