@@ -1,5 +1,7 @@
 #include "fem/discretization.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 #include "fem/discretization/linear_mesh.h"
@@ -7,7 +9,6 @@
 #include "fem/discretization/numbering.h"
 #include "fem/discretization/tricubic_choice.h"
 #include "fem/parallel.h"
-#include "fmt/format.h"
 #include "subdiv/error.h"
 #include "subdiv/limit.h"
 

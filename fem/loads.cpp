@@ -1,12 +1,13 @@
 #include "fem/loads.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "fem/parallel.h"
-#include "fmt/format.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
 

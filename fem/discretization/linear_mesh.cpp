@@ -1,6 +1,7 @@
 #include "fem/discretization/linear_mesh.h"
 
-#include "fmt/format.h"
+#include <fmt/format.h>
+
 #include "subdiv/build.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"

@@ -1,5 +1,7 @@
 #include "fem/dynamics/integrator.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -7,7 +9,6 @@
 #include "fem/dynamics/newton.h"
 #include "fem/dynamics/rigid_modes.h"
 #include "fem/solvers/stencil_product.h"
-#include "fmt/format.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {

@@ -1,9 +1,10 @@
 #include "fem/dynamics/rigid_modes.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <numeric>
 
-#include "fmt/format.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
