@@ -268,10 +268,7 @@ Discretization discretize(const subdiv::Refinement& refinement, const Eigen::Mat
   result.level = refinement.finest();
   result.cells = count_cells(refinement.solid());
   // Loads and tools act on the quadrilaterals of the finest level; only level 0 has other faces.
-  if (refinement.finest() == 0)
-    for (const CellId c : refinement.solid().cells())
-      for (const subdiv::FaceUseId use : refinement.solid().cell_face_uses(c))
-        check_quadrilateral(refinement.solid(), subdiv::face_of(use), c);
+  if (refinement.finest() == 0) check_quadrilaterals(refinement.solid());
   if (options.space == Space::standard)
     build_standard(result, refinement);
   else

@@ -44,7 +44,8 @@ std::string summary_json(const Session& session, const std::string& name, int th
         {"cubic", d.elements.cubic}, {"linear", d.elements.linear}, {"pyramid", d.elements.pyramid}};
     json["pyramids_without_stiffness"] = d.elements.pyramids_without_stiffness;
     json["unknowns"] = static_cast<std::size_t>(measure(document, {.name = "unknowns"}));
-    for (const char* measured : {"energy", "volume", "mass"}) json[measured] = measure(document, {.name = measured});
+    for (const char* measured : {"energy", "volume", "mass"})
+      json[measured] = measure(document, {.name = measured});
   } catch (const Error& error) {
     const fem::CellCounts cells =
         document.empty() ? fem::CellCounts{} : fem::count_cells(document.refinement().solid());

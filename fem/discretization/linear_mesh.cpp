@@ -27,6 +27,11 @@ void check_quadrilateral(const Solid& solid, subdiv::FaceId face, CellId cell) {
 
 }  // namespace
 
+void check_quadrilaterals(const Solid& solid) {
+  for (const CellId c : solid.cells())
+    for (const subdiv::FaceUseId use : solid.cell_face_uses(c)) check_quadrilateral(solid, subdiv::face_of(use), c);
+}
+
 LinearMesh mesh_linearly(const LinearCells& from) {
   LinearMesh mesh;
   mesh.centres.column_count = from.solid->vertex_capacity();

@@ -24,5 +24,7 @@ struct LinearMesh {
 
 /// @throws Error (unsupported) naming a cell with a face that is not a quadrilateral, which only level 0 has.
 [[nodiscard]] LinearMesh mesh_linearly(const LinearCells& from);
+/// @throws as above, for the cells of the whole solid.
+void check_quadrilaterals(const subdiv::Solid& solid);
 
 }  // namespace argil::fem
