@@ -2,25 +2,15 @@
 // Loops in parallel with results that do not depend on the number of threads: a loop writes only what belongs to
 // its index, and a sum is taken over chunks of fixed size, then over the chunks in order.
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "subdiv/parallel.h"
+
 namespace argil::fem {
 
-template <class Body>
-void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
-  if (count <= grain) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
-    return;
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-                    });
-}
+using subdiv::parallel_for;
 
 /// Sum of term(i); chunks of `chunk` terms, so that the order of summation is fixed.
 template <class Term>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +37,31 @@ void add_lines(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positio
   }
 }
 
+// The outward normal of the surface near a point; zero if it is farther than `reach`.
+Eigen::Vector3d outward_at(const SceneSurface& surface, const Eigen::Vector3d& at, double reach) {
+  std::size_t nearest = surface.positions.size();
+  double distance = reach;
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    const double d = (surface.positions[v].cast<double>() - at).norm();
+    if (d < distance) {
+      distance = d;
+      nearest = v;
+    }
+  }
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t f = 0; f + 1 < surface.offsets.size(); ++f) {
+    const auto begin = surface.corners.begin() + static_cast<std::ptrdiff_t>(surface.offsets[f]);
+    const auto end = surface.corners.begin() + static_cast<std::ptrdiff_t>(surface.offsets[f + 1]);
+    if (std::find(begin, end, nearest) == end) continue;
+    for (auto corner = begin; corner != end; ++corner) {
+      const auto next = corner + 1 == end ? begin : corner + 1;
+      normal +=
+          (surface.positions[*corner].cast<double>() - at).cross(surface.positions[*next].cast<double>() - at);
+    }
+  }
+  return normal;
+}
+
 // Where an applied force is drawn: its point, or the middle of its faces.
 Eigen::Vector3d point_of(const Document& document, const AppliedForce& force) {
   if (force.faces.empty())
@@ -54,10 +80,13 @@ void add_marks(Scene& scene, const Document& document, const PictureRequest& req
   const double size = extent(now);
   // A pinned control point is shown where it holds the surface.
   const auto node = node_from_control_vertex(document);
+  std::vector<std::uint8_t> shown(static_cast<std::size_t>(now.cols()), 0);
+  for (const std::uint32_t v : scene.surface.vertex_from_surface) shown[v] = 1;
   for (const std::uint32_t v : document.state().pins->control_points)
-    scene.pins.push_back(single(now.col(node[v])));
+    if (shown[node[v]]) scene.pins.push_back(single(now.col(node[v])));
   if (!document.state().pins->nodes.empty()) {
-    for (const SoftPin& pin : document.state().pins->nodes) scene.pins.push_back(single(now.col(pin.node)));
+    for (const SoftPin& pin : document.state().pins->nodes)
+      if (shown[pin.node]) scene.pins.push_back(single(now.col(pin.node)));
   }
   std::vector<std::array<Eigen::Vector3d, 2>> forces;
   for (const AppliedForce& force : document.state().loads->forces)
@@ -65,10 +94,14 @@ void add_marks(Scene& scene, const Document& document, const PictureRequest& req
   if (request.tool_force) forces.push_back(*request.tool_force);
   double largest = 0;
   for (const auto& [at, force] : forces) largest = std::max(largest, force.norm());
-  // They begin where they act; the largest is a quarter of the solid long.
-  for (const auto& [at, force] : forces)
-    if (force.norm() > 1e-9 * largest)
-      scene.arrows.push_back({single(at), single(at + 0.25 * size * force / largest)});
+  // The largest is a quarter of the solid long. A pull begins where it acts, a push ends there.
+  for (const auto& [at, force] : forces) {
+    if (!(force.norm() > 1e-9 * largest)) continue;
+    const Eigen::Vector3d arrow = 0.25 * size * force / largest;
+    const bool push = outward_at(scene.surface, at, 0.05 * size).dot(force) < 0;
+    scene.arrows.push_back(push ? SceneArrow{single(at - arrow), single(at)}
+                                : SceneArrow{single(at), single(at + arrow)});
+  }
 }
 
 Scene net_scene(const Document& document, const PictureRequest& request) {

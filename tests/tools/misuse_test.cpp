@@ -82,7 +82,7 @@ const BadCall k_calls[] = {
     {"RenderMissing", {"render", "none.mesh", "p.png"}, {"none.mesh", "no such file"}},
     {"RenderOption",
      {"render", "box.mesh", "p.png", "--with", "cagee"},
-     {"p.png", "'cagee' is not one of its arguments"}},
+     {"--with:1:14", "'cagee' is not one of its arguments"}},
     {"RenderField", {"render", "box.mesh", "p.png", "--with", "field heat"}, {"field must be one of", "'heat'"}},
     {"RenderSize", {"render", "box.mesh", "p.png", "--with", "size 100"}, {"size wants 2 values"}},
     {"RenderSizeNone", {"render", "box.mesh", "p.png", "--with", "size 0 100"}, {"size"}},

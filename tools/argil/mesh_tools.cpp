@@ -186,6 +186,8 @@ int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
 
 int render(const RenderArguments& arguments) {
   const auto renderer = view::make_offscreen_renderer();
+  if (arguments.out.extension() != ".png")
+    throw Error(ErrorCode::unsupported, fmt::format("a picture is a .png file, not '{}'", arguments.out.string()));
   // Links that the user names are followed; those in a session's folder are not.
   std::error_code failure;
   const std::filesystem::path mesh = std::filesystem::canonical(arguments.mesh, failure);
@@ -202,7 +204,7 @@ int render(const RenderArguments& arguments) {
   session.run_line("open " + io::quote(mesh.filename().string()));
   if (arguments.levels > 0) session.run_line(fmt::format("levels {}", arguments.levels));
   const std::string line = "render " + io::quote(arguments.out.filename().string()) + " " + arguments.options;
-  session.run_line(io::parse_session_line(line, arguments.out.string(), 1));
+  session.run_line(io::parse_session_line(line, "--with", 1));
   return k_well;
 }
 
