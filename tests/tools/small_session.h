@@ -1,5 +1,6 @@
 #pragma once
-// A session that takes every turn in a second: an edit of each kind, a cell that is no hexahedron, a stroke, undo, redo.
+// A session that takes every turn in a second: an edit of each kind, a cell that is no hexahedron, a stroke, undo,
+// redo.
 
 #include <string>
 
