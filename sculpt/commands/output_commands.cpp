@@ -90,7 +90,13 @@ void render(Session& session, const Arguments& arguments) {
   if (arguments.has("clip")) {
     const auto& plane = arguments.numbers("clip");
     request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
+    if (plane[3] == 0 && plane[4] == 0 && plane[5] == 0)
+      throw Error(ErrorCode::bad_input, "the normal of the clip plane is zero; `clip 0 0 0 1 0 0` looks along x");
   }
+  if (arguments.has("from") && arguments.vector("from").isZero(0))
+    throw Error(ErrorCode::bad_input, "the direction to the eye is zero; `from 0 -1 0` looks at the front");
+  if (arguments.has("net_steps") && !arguments.has("net"))
+    throw Error(ErrorCode::bad_input, "net_steps are those of a cell's net; add `net CELL`");
   const std::string style = arguments.word("style", "solid");
   request.style = style == "wireframe"            ? PictureStyle::wireframe
                   : style == "boundary_wireframe" ? PictureStyle::boundary_wireframe

@@ -1,5 +1,6 @@
 #include "sculpt/session.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -258,6 +259,9 @@ const std::vector<BadLine> k_bad_lines = {
     {"remove where boundary + 1", ErrorCode::bad_input, "", "input:1:14"},
     {"render chair.jpg", ErrorCode::bad_input, ".png"},
     {"render a.png range 1 0 field strain", ErrorCode::bad_input, "rises"},
+    {"render a.png clip 0 0 0 0 0 0", ErrorCode::bad_input, "normal"},
+    {"render a.png from 0 0 0", ErrorCode::bad_input, "direction"},
+    {"render a.png net_steps 2", ErrorCode::bad_input, "net CELL"},
     {"render /a.png", ErrorCode::refused, "absolute"},
     {"save block.doc", ErrorCode::unsupported, ".doc"},
     {"save ../block.vtu", ErrorCode::refused, "climbs out"},
@@ -446,16 +450,18 @@ TEST(Session, UntilStepStopsThere) {
     options.until_step = until;
     options.hash_trace = folder.path() / "trace";
     State state;
+    std::string hash;
     {
       TestSession session({}, options);
       session->run_text(text, "s.argil");
       state = session.state();
+      hash = fmt::format("{:016x}", session.hash());
     }
-    return std::pair(folder.text_of("trace"), state);
+    return std::tuple(folder.text_of("trace"), state, hash);
   };
-  const auto [whole_trace, whole] = run(-1);
+  const auto [whole_trace, whole, whole_hash] = run(-1);
   for (const std::size_t until : {2U, 5U, 9U, 20U}) {
-    const auto [trace, state] = run(static_cast<long>(until));
+    const auto [trace, state, hash] = run(static_cast<long>(until));
     auto expected = steps_of_trace(whole_trace);
     const auto found = steps_of_trace(trace);
     ASSERT_GE(found.size(), until);
@@ -466,6 +472,8 @@ TEST(Session, UntilStepStopsThere) {
     EXPECT_TRUE(state.loads->gravity.isZero());
     expected.resize(std::min(found.size(), until));
     EXPECT_TRUE(std::equal(expected.begin(), expected.end(), found.begin()));
+    // It stops in the state that the whole session passes through.
+    EXPECT_THAT(whole_trace, HasSubstr(fmt::format(" step {} {}\n", until, hash)));
   }
   EXPECT_FALSE(whole.loads->gravity.isZero());
 }
