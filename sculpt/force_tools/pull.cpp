@@ -2,45 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <limits>
-#include "sculpt/document_loads.h"
+#include <array>
+#include <vector>
 
+#include "sculpt/document_loads.h"
 #include "subdiv/error.h"
+#include "subdiv/query/surface_tree.h"
 
 namespace argil::sculpt {
 
 namespace {
 
-double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double length_squared = along.squaredNorm();
-  const double t = length_squared > 0 ? std::clamp((p - a).dot(along) / length_squared, 0.0, 1.0) : 0.0;
-  return (a + t * along - p).norm();
-}
-
-double distance_to_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                            const Eigen::Vector3d& c) {
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const bool above = normal.squaredNorm() > 0 && (b - a).cross(p - a).dot(normal) >= 0 &&
-                     (c - b).cross(p - b).dot(normal) >= 0 && (a - c).cross(p - c).dot(normal) >= 0;
-  if (above) return std::abs((p - a).dot(normal)) / normal.norm();
-  return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-}
-
 // Each quadrilateral as four triangles about its middle.
 double distance_to_surface(const fem::SurfacePatch& patch, const Eigen::Matrix3Xd& nodes,
                            const Eigen::Vector3d& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& quad : patch.quads) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const std::uint32_t node : quad) middle += nodes.col(node) / 4;
-    for (std::size_t i = 0; i < 4; ++i)
-      nearest =
-          std::min(nearest, distance_to_triangle(p, nodes.col(quad[i]), nodes.col(quad[(i + 1) % 4]), middle));
+  Eigen::Matrix3Xd points(3, nodes.cols() + static_cast<Eigen::Index>(patch.quads.size()));
+  points.leftCols(nodes.cols()) = nodes;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t q = 0; q < patch.quads.size(); ++q) {
+    const auto& quad = patch.quads[q];
+    const auto middle = static_cast<std::uint32_t>(static_cast<std::size_t>(nodes.cols()) + q);
+    points.col(middle) = (nodes.col(quad[0]) + nodes.col(quad[1]) + nodes.col(quad[2]) + nodes.col(quad[3])) / 4;
+    for (std::size_t i = 0; i < 4; ++i) triangles.push_back({quad[i], quad[(i + 1) % 4], middle});
   }
-  return nearest;
+  return (subdiv::SurfaceTree(points, triangles).nearest(p) - p).norm();
 }
 
 }  // namespace
