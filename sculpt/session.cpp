@@ -89,7 +89,11 @@ void Session::execute(const io::SessionLine& line) {
     command.run(*this, arguments);
   } catch (const Error& error) {
     take_back();
-    if (!error.where().empty() && error.where().find(':') != std::string::npos) throw;
+    if (error.where().starts_with(current_.file + ":")) throw;
+    // A fault within a file that a command reads has its own place; the line that reads it is named as well.
+    if (error.where().find(':') != std::string::npos)
+      throw Error(error.code(), std::string(error.what()) + " (" + command.name + " in " + place() + ")",
+                  error.where());
     const std::string detail = error.where().empty() ? "" : " (" + error.where() + ")";
     throw Error(error.code(), command.name + ": " + error.what() + detail, place());
   } catch (...) {
