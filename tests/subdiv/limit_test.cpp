@@ -7,8 +7,8 @@
 
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
+#include "tests/shapes/shapes.h"
 #include "tests/subdiv/grid_coordinates.h"
-#include "tests/subdiv/shapes.h"
 
 namespace argil::subdiv {
 namespace {

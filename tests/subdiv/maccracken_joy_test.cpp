@@ -10,9 +10,9 @@
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
 #include "subdiv/validate.h"
+#include "tests/shapes/shapes.h"
 #include "tests/subdiv/grid_coordinates.h"
 #include "tests/subdiv/reference_subdivider.h"
-#include "tests/subdiv/shapes.h"
 
 namespace argil::subdiv {
 namespace {

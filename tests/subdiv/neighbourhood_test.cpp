@@ -9,7 +9,7 @@
 #include "subdiv/limit.h"
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
-#include "tests/subdiv/shapes.h"
+#include "tests/shapes/shapes.h"
 
 namespace argil::subdiv {
 namespace {

@@ -5,8 +5,8 @@
 #include "subdiv/boundary.h"
 #include "subdiv/limit.h"
 #include "subdiv/maccracken_joy.h"
+#include "tests/shapes/shapes.h"
 #include "tests/subdiv/opensubdiv_oracle.h"
-#include "tests/subdiv/shapes.h"
 
 namespace argil::subdiv {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "subdiv/neighbourhood.h"
-#include "tests/subdiv/shapes.h"
+#include "tests/shapes/shapes.h"
 
 namespace argil::subdiv {
 namespace {

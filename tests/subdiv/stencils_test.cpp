@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "subdiv/refinement.h"
-#include "tests/subdiv/shapes.h"
+#include "tests/shapes/shapes.h"
 
 namespace argil::subdiv {
 namespace {
