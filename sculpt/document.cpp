@@ -60,7 +60,6 @@ struct Document::Derived {
   std::uint64_t topology = 0;
   int level = -1;
   std::unique_ptr<subdiv::Refinement> refinement;
-  std::unique_ptr<subdiv::BoundarySurface> surface;
 
   std::shared_ptr<const Eigen::Matrix3Xd> rest;
   std::shared_ptr<const Fields> fields;
@@ -109,7 +108,6 @@ const subdiv::Refinement& Document::refinement() const {
   const std::uint64_t topology = solid().topology_hash();
   if (!d.refinement || d.topology != topology || d.level != state_.level) {
     d.drop_from_discretization();
-    d.surface.reset();
     d.refinement = std::make_unique<subdiv::Refinement>(subdiv::refine_to_level(solid(), state_.level));
     d.topology = topology;
     d.level = state_.level;
@@ -190,13 +188,6 @@ const fem::Loads& Document::loads() const {
     d.applied = state_.loads;
   }
   return *d.loads;
-}
-
-const subdiv::BoundarySurface& Document::surface() const {
-  const subdiv::Refinement& refined = refinement();
-  if (!derived_->surface)
-    derived_->surface = std::make_unique<subdiv::BoundarySurface>(subdiv::boundary_surface(refined.solid()));
-  return *derived_->surface;
 }
 
 const fem::ShownElements& Document::shown_elements() const {

@@ -13,7 +13,6 @@
 #include "fem/discretization.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/measure/shown_elements.h"
-#include "subdiv/boundary.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
 
@@ -125,7 +124,6 @@ class Document {
   fem::Integrator& integrator() const;
   /// Loads that do not come from a tool, in control points, with the soft pins as springs.
   const fem::Loads& loads() const;
-  const subdiv::BoundarySurface& surface() const;    // of the finest level
   const fem::ShownElements& shown_elements() const;  // for strain and stress
   /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x
   /// vertices.

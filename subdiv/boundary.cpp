@@ -2,36 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
+#include "subdiv/disjoint_sets.h"
 #include "subdiv/radial_edge.h"
 
 namespace argil::subdiv {
 
 namespace {
-
-// Union-find whose representatives are the lowest members.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::size_t count() {
-    std::size_t result = 0;
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) result += parent_[i] == i;
-    return result;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct EdgeCorner {
   EdgeId edge;
@@ -48,7 +25,7 @@ class SurfaceBuilder {
   }
 
   BoundarySurface run() {
-    Sets corner_sets(vertices_.size()), face_sets(surface_.faces.size());
+    DisjointSets corner_sets(vertices_.size()), face_sets(surface_.faces.size());
     std::size_t edge_count = 0;
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
       corner_sets.unite(a, next_[b]);
@@ -104,7 +81,7 @@ class SurfaceBuilder {
     return at->corner;
   }
 
-  void number_vertices(Sets& corner_sets) {
+  void number_vertices(DisjointSets& corner_sets) {
     std::vector<std::pair<VertexId, std::uint32_t>> order;
     for (std::uint32_t c = 0; c < vertices_.size(); ++c)
       if (corner_sets.find(c) == c) order.emplace_back(vertices_[c], c);

@@ -10,6 +10,7 @@
 #include "sculpt/field_transfer.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
+#include "subdiv/disjoint_sets.h"
 #include "subdiv/edit/extrude.h"
 #include "subdiv/edit/sharpen.h"
 #include "subdiv/error.h"
@@ -123,28 +124,22 @@ Eigen::Vector3d mean_normal(const Solid& solid, const Eigen::Matrix3Xd& position
 // are extruded together taper each about its own axis.
 std::map<VertexId, Eigen::Vector3d> patch_middles(const Solid& solid, const std::vector<FaceId>& faces,
                                                   const Eigen::Matrix3Xd& positions) {
-  std::map<VertexId, VertexId> parent;
-  const auto root = [&](VertexId v) {
-    while (parent.at(v) != v) v = parent.at(v) = parent.at(parent.at(v));
-    return v;
-  };
-  for (const FaceId f : faces)
-    for (const VertexId v : solid.face_vertices(f)) parent.try_emplace(v, v);
+  DisjointSets patches(solid.vertex_capacity());
+  std::map<std::uint32_t, std::pair<Eigen::Vector3d, double>> sums;
+  std::map<VertexId, Eigen::Vector3d> middles;
   for (const FaceId f : faces)
     for (const VertexId v : solid.face_vertices(f)) {
-      const VertexId a = root(v), b = root(solid.face_vertices(f)[0]);
-      parent[std::max(a, b)] = std::min(a, b);
+      patches.unite(v.value, solid.face_vertices(f)[0].value);
+      middles.try_emplace(v, Eigen::Vector3d::Zero());
     }
-  std::map<VertexId, std::pair<Eigen::Vector3d, double>> sums;
-  for (const auto& [v, unused] : parent) {
-    auto& [sum, count] = sums.try_emplace(root(v), Eigen::Vector3d::Zero(), 0.0).first->second;
+  for (const auto& [v, unused] : middles) {
+    auto& [sum, count] = sums.try_emplace(patches.find(v.value), Eigen::Vector3d::Zero(), 0.0).first->second;
     sum += positions.col(static_cast<Eigen::Index>(v.index()));
     count += 1;
   }
-  std::map<VertexId, Eigen::Vector3d> middles;
-  for (const auto& [v, unused] : parent) {
-    const auto& [sum, count] = sums.at(root(v));
-    middles[v] = sum / count;
+  for (auto& [v, middle] : middles) {
+    const auto& [sum, count] = sums.at(patches.find(v.value));
+    middle = sum / count;
   }
   return middles;
 }

@@ -6,29 +6,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "subdiv/disjoint_sets.h"
+
 namespace argil::view {
 
 namespace {
 
 constexpr std::uint32_t k_none = 0xffffffffU;
-
-/// Sets of corners that share a normal.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct FaceEdge {
   std::array<std::uint32_t, 2> ends;    // surface vertices, ascending
@@ -58,13 +42,14 @@ std::vector<FaceEdge> face_edges(const sculpt::SceneSurface& surface) {
   return edges;
 }
 
-CornerSets join_corners(const sculpt::SceneSurface& surface) {
+/// Sets of corners that share a normal.
+subdiv::DisjointSets join_corners(const sculpt::SceneSurface& surface) {
   auto sharp = surface.sharp_edges;
   for (auto& ends : sharp)
     if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
   std::sort(sharp.begin(), sharp.end());
 
-  CornerSets sets(surface.corners.size());
+  subdiv::DisjointSets sets(surface.corners.size());
   const std::vector<FaceEdge> edges = face_edges(surface);
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
@@ -95,10 +80,10 @@ SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<
   assert(positions.size() == surface.positions.size());
   assert(surface.cell_from_face.size() + 1 == surface.offsets.size());
   SurfaceMesh mesh;
-  CornerSets sets = join_corners(surface);
+  subdiv::DisjointSets sets = join_corners(surface);
   std::vector<std::uint32_t> vertex_from_root(surface.corners.size(), k_none);
   const auto vertex_of = [&](std::uint32_t corner) -> std::uint32_t {
-    std::uint32_t& vertex = vertex_from_root[sets.root(corner)];
+    std::uint32_t& vertex = vertex_from_root[sets.find(corner)];
     if (vertex == k_none) {
       vertex = static_cast<std::uint32_t>(mesh.vertices.size());
       const std::uint32_t v = surface.corners[corner];
