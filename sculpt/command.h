@@ -72,6 +72,7 @@ struct Command {
   std::string summary{};
   std::vector<Parameter> parameters{};
   std::string example{};
+  std::vector<std::string> before{};  // lines of a session that the example needs to run
   Effect effect = Effect::state;
   std::function<void(Session&, const Arguments&)> run{};
 };

@@ -44,6 +44,7 @@ class Builder {
   CellId add_cell(std::span<const FaceUseId> uses) { return solid_.push_cell(uses); }
   void set_sharpness(EdgeId e, double s) { solid_.edges_[e.index()].sharpness = s; }
   void set_sharpness(VertexId v, double s) { solid_.vertex_sharpness_[v.index()] = s; }
+  void set_sharpness(FaceId f, double s) { solid_.faces_[f.index()].sharpness = s; }
   const Solid& solid() const { return solid_; }
   Solid finish() { return std::move(solid_); }
 

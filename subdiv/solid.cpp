@@ -307,6 +307,8 @@ std::uint64_t Solid::element_hash(FaceId f) const {
   WordHash hash;
   hash.add(std::uint64_t{3} << 56 | f.value);
   for (const VertexId v : face_vertices(f)) hash.add(std::uint64_t{v.value});
+  // Only where there is one, so that solids without sharp sheets keep the hashes that sessions have recorded.
+  if (face_sharpness(f) != 0) hash.add(face_sharpness(f));
   return hash.finish();
 }
 

@@ -99,6 +99,8 @@ class Solid {
 
   double edge_sharpness(EdgeId e) const { return edges_[e.index()].sharpness; }
   double vertex_sharpness(VertexId v) const { return vertex_sharpness_[v.index()]; }
+  /// Above 0 on an interior face, it belongs to a sharp sheet; on a boundary face it says nothing.
+  double face_sharpness(FaceId f) const { return faces_[f.index()].sharpness; }
 
   /// Sum over the live elements of a hash of each (id, what it is made of, sharpness), and of the capacities.
   /// Kept up to date by edits; O(elements) only after a bulk build.
@@ -126,6 +128,7 @@ class Solid {
     std::uint32_t first_corner = 0, corner_count = 0;
     std::array<CellId, 2> owners;
     bool live = true;
+    double sharpness = 0;
   };
   struct Cell {
     std::uint32_t first_use = 0, use_count = 0;

@@ -141,22 +141,32 @@ void Transaction::assign_sharpness(Solid& solid, VertexId v, double sharpness) {
   solid.add_to_hash(v);
 }
 
+void Transaction::assign_sharpness(Solid& solid, FaceId f, double sharpness) {
+  solid.take_from_hash(f);
+  solid.faces_[f.index()].sharpness = sharpness;
+  solid.add_to_hash(f);
+}
+
+template <class IdType>
+void Transaction::change_sharpness(Delta::Kind kind, IdType id, double before, double after) {
+  assert(solid_->is_live(id) && after >= 0 && after <= k_infinitely_sharp);
+  if (before == after) return;
+  Delta::Step& step = record(kind, id.value);
+  step.before = before;
+  step.after = after;
+  assign_sharpness(*solid_, id, after);
+}
+
 void Transaction::set_sharpness(EdgeId e, double sharpness) {
-  assert(solid_->is_live(e) && sharpness >= 0 && sharpness <= k_infinitely_sharp);
-  if (solid_->edge_sharpness(e) == sharpness) return;
-  Delta::Step& step = record(Delta::Kind::edge_sharpness, e.value);
-  step.before = solid_->edge_sharpness(e);
-  step.after = sharpness;
-  assign_sharpness(*solid_, e, sharpness);
+  change_sharpness(Delta::Kind::edge_sharpness, e, solid_->edge_sharpness(e), sharpness);
 }
 
 void Transaction::set_sharpness(VertexId v, double sharpness) {
-  assert(solid_->is_live(v) && sharpness >= 0 && sharpness <= k_infinitely_sharp);
-  if (solid_->vertex_sharpness(v) == sharpness) return;
-  Delta::Step& step = record(Delta::Kind::vertex_sharpness, v.value);
-  step.before = solid_->vertex_sharpness(v);
-  step.after = sharpness;
-  assign_sharpness(*solid_, v, sharpness);
+  change_sharpness(Delta::Kind::vertex_sharpness, v, solid_->vertex_sharpness(v), sharpness);
+}
+
+void Transaction::set_sharpness(FaceId f, double sharpness) {
+  change_sharpness(Delta::Kind::face_sharpness, f, solid_->face_sharpness(f), sharpness);
 }
 
 Delta Transaction::commit() {
@@ -209,6 +219,8 @@ void Transaction::undo_step(Solid& solid, const Delta::Step& step) {
       return assign_sharpness(solid, EdgeId{step.id}, step.before);
     case Kind::vertex_sharpness:
       return assign_sharpness(solid, VertexId{step.id}, step.before);
+    case Kind::face_sharpness:
+      return assign_sharpness(solid, FaceId{step.id}, step.before);
   }
 }
 
@@ -252,6 +264,9 @@ void Transaction::redo_step(Solid& solid, const Delta::Step& step, std::span<con
       break;
     case Kind::vertex_sharpness:
       assign_sharpness(solid, VertexId{step.id}, step.after);
+      break;
+    case Kind::face_sharpness:
+      assign_sharpness(solid, FaceId{step.id}, step.after);
       break;
   }
   assert(given == step.id);

@@ -32,7 +32,8 @@ class Delta {
     remove_face,
     remove_cell,
     edge_sharpness,
-    vertex_sharpness
+    vertex_sharpness,
+    face_sharpness
   };
   struct Step {
     Kind kind;
@@ -74,6 +75,7 @@ class Transaction {
   /// 0 (smooth) to k_infinitely_sharp.
   void set_sharpness(EdgeId e, double sharpness);
   void set_sharpness(VertexId v, double sharpness);
+  void set_sharpness(FaceId f, double sharpness);
 
   /// Ends the transaction and returns what it did.
   [[nodiscard]] Delta commit();
@@ -91,6 +93,9 @@ class Transaction {
   static void redo_step(Solid& solid, const Delta::Step& step, std::span<const std::uint32_t> payload);
   static void assign_sharpness(Solid& solid, EdgeId e, double sharpness);
   static void assign_sharpness(Solid& solid, VertexId v, double sharpness);
+  static void assign_sharpness(Solid& solid, FaceId f, double sharpness);
+  template <class IdType>
+  void change_sharpness(Delta::Kind kind, IdType id, double before, double after);
 
   Solid* solid_;
   Delta delta_;

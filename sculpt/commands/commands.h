@@ -7,7 +7,13 @@
 
 namespace argil::sculpt {
 
-std::vector<Command> shape_commands();       // new open extrude peak remove move sharpen levels space
+std::vector<Command> base_commands();        // new open join solidify
+std::vector<Command> level_commands();       // levels space rules
+std::vector<Command> topology_commands();    // extrude peak remove
+std::vector<Command> joining_commands();     // merge weld bridge collapse fill
+std::vector<Command> splitting_commands();   // split cut
+std::vector<Command> sharpen_commands();     // sharpen
+std::vector<Command> transform_commands();   // move transform mirror duplicate project smooth
 std::vector<Command> selection_commands();   // select
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator step solve commit

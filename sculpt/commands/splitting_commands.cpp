@@ -1,0 +1,11 @@
+#include "sculpt/commands/commands.h"
+#include "sculpt/commands/edit.h"
+#include "sculpt/session.h"
+
+namespace argil::sculpt {
+
+std::vector<Command> splitting_commands() {
+  return {};
+}
+
+}  // namespace argil::sculpt
