@@ -209,9 +209,10 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table = [] {
     std::vector<Command> all;
-    for (auto* group : {&base_commands, &level_commands, &topology_commands, &joining_commands, &splitting_commands,
-                        &sharpen_commands, &transform_commands, &selection_commands, &material_commands,
-                        &simulation_commands, &tool_commands, &history_commands, &output_commands}) {
+    for (auto* group :
+         {&base_commands, &file_commands, &level_commands, &topology_commands, &joining_commands,
+          &splitting_commands, &sharpen_commands, &transform_commands, &selection_commands, &material_commands,
+          &simulation_commands, &tool_commands, &history_commands, &output_commands}) {
       auto commands = (*group)();
       std::move(commands.begin(), commands.end(), std::back_inserter(all));
     }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "io/volume_mesh.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
 #include "sculpt/session.h"
@@ -29,32 +28,6 @@ void new_solid(Session& session, const Arguments& arguments) {
   }
   built.positions.colwise() += arguments.vector("at", Eigen::Vector3d::Zero());
   session.change(state_of(std::move(built)));
-}
-
-void open(Session& session, const Arguments& arguments) {
-  const io::VolumeMesh mesh = io::read_volume_mesh(session.path_to_read(arguments.word("file")));
-  check_cells(session, static_cast<double>(mesh.cells.cell_count()));
-  Built built = build(mesh.cells);
-  const auto unused = static_cast<std::size_t>(mesh.cells.positions.cols()) - built.point_from_vertex.size();
-  if (unused > 0) session.print(fmt::format("{} points belong to no cell and were left out", unused));
-  const auto point_from_vertex = built.point_from_vertex;
-  State next = state_of(std::move(built));
-  auto fields = std::make_shared<Fields>(*next.fields);
-  for (const io::NamedField& held : mesh.point_fields) {
-    for (const FieldInfo& info : field_table()) {
-      if (held.name != info.word || held.components != 1) continue;
-      for (std::size_t v = 0; v < point_from_vertex.size(); ++v) {
-        const double value = held.values[point_from_vertex[v]];
-        if (!(value >= info.low && value <= info.high))
-          throw Error(ErrorCode::bad_input,
-                      fmt::format("{} of point {} is {:g}; it must lie between {:g} and {:g}", info.word,
-                                  point_from_vertex[v], value, info.low, info.high));
-        (*fields)[info.name][static_cast<Eigen::Index>(v)] = value;
-      }
-    }
-  }
-  next.fields = fields;
-  session.change(std::move(next));
 }
 
 }  // namespace
@@ -97,15 +70,6 @@ std::vector<Command> base_commands() {
                        .high = 1e9}},
        .example = "new box 4 4 1 size 0.6 0.6 0.1",
        .run = new_solid},
-      {.name = "open",
-       .summary = "Begins with the cells of a volume mesh file: .mesh, .vtk or .vtu.",
-       .parameters = {{.name = "file",
-                       .type = ArgumentType::text,
-                       .help = "beneath the session's own folder",
-                       .positional = true,
-                       .required = true}},
-       .example = "open chair.vtk",
-       .run = open},
   };
 }
 

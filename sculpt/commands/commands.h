@@ -7,7 +7,8 @@
 
 namespace argil::sculpt {
 
-std::vector<Command> base_commands();        // new open join solidify
+std::vector<Command> base_commands();        // new join solidify
+std::vector<Command> file_commands();        // open
 std::vector<Command> level_commands();       // levels space rules
 std::vector<Command> topology_commands();    // extrude peak remove
 std::vector<Command> joining_commands();     // merge weld bridge collapse fill
