@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <cassert>
 
 #include "fem/discretization/linear_mesh.h"

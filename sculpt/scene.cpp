@@ -1,5 +1,6 @@
 #include "sculpt/scene.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>

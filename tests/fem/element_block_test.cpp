@@ -1,6 +1,7 @@
 #include "fem/element_block.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "tests/fem/element_bodies.h"
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
 #include <numeric>
 
 #include "subdiv/error.h"

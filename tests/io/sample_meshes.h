@@ -1,6 +1,7 @@
 #pragma once
 // A small solid with every kind of cell glued face to face, its known volumes, and an independent volume function.
 
+#include <Eigen/Dense>
 #include <bit>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
 #include <cstring>
 #include <limits>
 

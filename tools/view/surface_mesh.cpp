@@ -1,5 +1,6 @@
 #include "tools/view/surface_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cassert>

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>
+#include <Eigen/Dense>
 
 #include <cmath>
 #include <cstring>

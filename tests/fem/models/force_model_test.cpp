@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 
 #include "tests/fem/element_bodies.h"

@@ -1,6 +1,7 @@
 #include "fem/models/lane_polar.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "tests/fem/element_bodies.h"
 
