@@ -69,6 +69,7 @@ enum class Effect {
 
 struct Command {
   std::string name{};
+  std::string group{};  // its heading in the document
   std::string summary{};
   std::vector<Parameter> parameters{};
   std::string example{};
@@ -89,6 +90,8 @@ struct Command {
 /// "extrude DISTANCE [steps N] …", and the full help text.
 [[nodiscard]] std::string usage(const Command& command);
 [[nodiscard]] std::string help_text(const Command& command);
+/// docs/commands.md: every command under the heading of its group, with arguments, and an example that runs.
+[[nodiscard]] std::string commands_document();
 /// A line for each command.
 [[nodiscard]] std::string command_overview();
 

@@ -130,7 +130,9 @@ int run(int argc, char** argv) {
 
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
-  help_app->callback([&] { status = help(command); });
+  bool document = false;
+  help_app->add_flag("--document", document, "docs/commands.md, written from the table of commands");
+  help_app->callback([&] { status = document ? help_document() : help(command); });
 
   const std::string first_word = argc > 1 ? argv[1] : "";
   app.failure_message(

@@ -41,5 +41,6 @@ struct RenderArguments {
 int render(const RenderArguments& arguments);
 
 int help(const std::string& command);
+int help_document();
 
 }  // namespace argil::tools
