@@ -20,6 +20,8 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
                             options_.out.string(), failure.message()));
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
+    // What an earlier program left here may be all that there is of someone's work.
+    std::filesystem::rename(journal_path_, options_.out / "journal.previous.argil", failure);
     journal_.open(journal_path_, std::ios::trunc);
     if (!journal_)
       throw Error(ErrorCode::bad_input,
