@@ -92,6 +92,7 @@ std::string signature(const Parameter& parameter) {
                                  : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
                                                        : upper);
   }
+  if (parameter.list) value += " …";
   if (parameter.flag)
     value = parameter.name;
   else if (!parameter.positional)
@@ -112,6 +113,14 @@ Eigen::Vector3d Arguments::vector(const std::string& name) const {
 
 Eigen::Vector3d Arguments::vector(const std::string& name, const Eigen::Vector3d& otherwise) const {
   return has(name) ? vector(name) : otherwise;
+}
+
+std::vector<Eigen::Vector3d> Arguments::points(const std::string& name) const {
+  std::vector<Eigen::Vector3d> result;
+  const auto& numbers = values_.at(name).numbers;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    result.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return result;
 }
 
 std::string Arguments::word(const std::string& name, const std::string& otherwise) const {
@@ -188,11 +197,17 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
                          parameter->name));
       i = tokens.size();
     } else if (!parameter->flag) {
-      for (int k = 0; k < parameter->count; ++k) {
+      const auto goes_on = [&](int k) {
+        return k < parameter->count || k % parameter->count != 0 ||
+               (parameter->list && i < tokens.size() && tokens[i].kind == io::TokenKind::number);
+      };
+      for (int k = 0; goes_on(k); ++k) {
         if (i >= tokens.size())
           fail_at_end(line, fmt::format("{}: {} wants {}, the line ends", command.name, parameter->name,
-                                        parameter->count == 1 ? std::string(noun(parameter->type))
-                                                              : fmt::format("{} values", parameter->count)));
+                                        parameter->count == 1
+                                            ? std::string(noun(parameter->type))
+                                            : fmt::format("{}{} values", parameter->list ? "groups of " : "",
+                                                          parameter->count)));
         if (k == 0) argument.at = tokens[i];
         take_value(command, *parameter, line, tokens[i++], argument);
       }

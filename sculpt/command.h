@@ -32,6 +32,7 @@ struct Parameter {
   double low = -1e300, high = 1e300;   // allowed range of numbers
   std::vector<std::string> choices{};  // allowed words; empty: any
   bool flag = false;                   // a name alone
+  bool list = false;                   // any number of times `count` values (named numbers only)
 };
 
 /// One bound argument.
@@ -54,6 +55,7 @@ class Arguments {
   std::string word(const std::string& name, const std::string& otherwise) const;
   const Expression* expression(const std::string& name) const;
   const std::vector<double>& numbers(const std::string& name) const { return values_.at(name).numbers; }
+  std::vector<Eigen::Vector3d> points(const std::string& name) const;
   const Argument& at(const std::string& name) const { return values_.at(name); }
   void set(const std::string& name, Argument value) { values_[name] = std::move(value); }
 
