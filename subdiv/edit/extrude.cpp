@@ -38,14 +38,6 @@ void check_walls(const Solid& solid, std::span<const FaceId> faces) {
               fmt::format("edge {}", twice->first.value));
 }
 
-// How sharp an edge is that a vertex of the boundary leaves behind as it moves.
-double trail_sharpness(const Solid& solid, VertexId v) {
-  std::vector<double> sharp;
-  solid.for_each_edge(v, [&](EdgeId e) { sharp.push_back(solid.edge_sharpness(e)); });
-  std::sort(sharp.begin(), sharp.end(), std::greater<>());
-  return std::max(solid.vertex_sharpness(v), sharp.size() < 3 ? 0.0 : sharp[2]);
-}
-
 class Extruder {
  public:
   Extruder(Transaction& transaction, std::span<const FaceId> faces) : t_(transaction) {
@@ -143,6 +135,13 @@ void check_extrusion(const Solid& solid, std::span<const FaceId> faces, int step
   if (steps < 1) throw Error(ErrorCode::bad_input, fmt::format("expected at least 1 step, found {}", steps));
   check_boundary_faces(solid, faces);
   check_walls(solid, faces);
+}
+
+double trail_sharpness(const Solid& solid, VertexId v) {
+  std::vector<double> sharp;
+  solid.for_each_edge(v, [&](EdgeId e) { sharp.push_back(solid.edge_sharpness(e)); });
+  std::sort(sharp.begin(), sharp.end(), std::greater<>());
+  return std::max(solid.vertex_sharpness(v), sharp.size() < 3 ? 0.0 : sharp[2]);
 }
 
 Extrusion extrude(Transaction& transaction, std::span<const FaceId> faces, int steps) {
