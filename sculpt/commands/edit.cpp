@@ -202,13 +202,13 @@ void edit_solid(Session& session, const std::function<Edit(Transaction&, const E
     rest.conservativeResize(3, vertices);
     present.conservativeResize(3, vertices);
     for (const PlacedVertex& placed : made.placed) {
-      Eigen::Vector3d at = placed.offset, at_present = placed.offset;
+      Eigen::Vector3d at = Eigen::Vector3d::Zero(), at_present = at;
       for (const auto& [source, weight] : placed.sources) {
         at += weight * old_rest.col(static_cast<Eigen::Index>(source.index()));
         at_present += weight * old_present.col(static_cast<Eigen::Index>(source.index()));
       }
-      rest.col(static_cast<Eigen::Index>(placed.vertex.index())) = at;
-      present.col(static_cast<Eigen::Index>(placed.vertex.index())) = at_present;
+      rest.col(static_cast<Eigen::Index>(placed.vertex.index())) = placed.linear * at + placed.offset;
+      present.col(static_cast<Eigen::Index>(placed.vertex.index())) = placed.linear * at_present + placed.offset;
     }
     const auto choose = [&](ElementType type, const auto& ids) {
       if (ids.empty()) return false;
