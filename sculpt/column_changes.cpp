@@ -68,13 +68,13 @@ Columns empty_columns(Eigen::Index count, bool with_fields) {
 }
 
 void place(const State& state, const PlacedVertex& placed, Columns& columns, Eigen::Index at) {
-  Eigen::Vector3d rest = placed.offset, present = placed.offset;
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero(), present = rest;
   for (const auto& [source, weight] : placed.sources) {
     rest += weight * state.rest->col(column(source));
     present += weight * state.motion->positions.col(column(source));
   }
-  columns.rest.col(at) = rest;
-  columns.positions.col(at) = present;
+  columns.rest.col(at) = placed.linear * rest + placed.offset;
+  columns.positions.col(at) = placed.linear * present + placed.offset;
   for (std::size_t f = 0; f < columns.fields.size(); ++f) {
     if (columns.fields[f].size() == 0 || placed.sources.empty()) continue;
     const Eigen::VectorXd& values = state.fields->values[f];

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "subdiv/error.h"
+#include "subdiv/transaction.h"
 
 namespace argil::subdiv {
 
@@ -78,6 +79,18 @@ Built wedge(const Eigen::Vector3d& size) {
 
 Built pyramid(const Eigen::Vector3d& size) {
   return single_cell(CellKind::pyramid, size, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}});
+}
+
+std::size_t sharpen_outline(Solid& solid) {
+  std::size_t count = 0;
+  Transaction transaction(solid);
+  for (const EdgeId e : solid.edges())
+    if (solid.edge_valence(e) == 2) {
+      transaction.set_sharpness(e, k_infinitely_sharp);
+      ++count;
+    }
+  (void)transaction.commit();
+  return count;
 }
 
 }  // namespace argil::subdiv

@@ -1,5 +1,6 @@
 #pragma once
-// Base shapes. All stand with their lowest corner at the origin.
+// Base shapes of flat sides; primitives/ has the round ones and the regular bodies. These stand with their lowest
+// corner at the origin.
 
 #include "subdiv/build.h"
 
@@ -13,5 +14,9 @@ namespace argil::subdiv {
 [[nodiscard]] Built tetrahedron(const Eigen::Vector3d& size);
 [[nodiscard]] Built wedge(const Eigen::Vector3d& size);
 [[nodiscard]] Built pyramid(const Eigen::Vector3d& size);
+
+/// Makes the edges that only one cell holds infinitely sharp: of a base shape its edges and rims (a sphere and a
+/// torus have none). Returns how many. Cost O(edges).
+std::size_t sharpen_outline(Solid& solid);
 
 }  // namespace argil::subdiv
