@@ -47,7 +47,10 @@ void write_png(const std::filesystem::path& path, int width, int height, const s
 }
 
 Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+  return read_png(read_file(path), path.string());
+}
+
+Image read_png(std::string_view bytes, std::string_view name) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT32_MAX));
   Image image;
@@ -57,13 +60,13 @@ Image read_png(const std::filesystem::path& path) {
       stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0 ||
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) / 8 / 1032 > bytes.size()) {
     throw Error(ErrorCode::bad_input, "expected a PNG picture, found something else or a damaged one",
-                path.string());
+                std::string(name));
   }
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(data, size, &image.width, &image.height, &channels, k_channels), stbi_image_free);
   if (!pixels) {
     throw Error(ErrorCode::bad_input, fmt::format("the PNG picture is damaged: {}", stbi_failure_reason()),
-                path.string());
+                std::string(name));
   }
   const std::size_t count =
       std::size_t{k_channels} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
