@@ -52,7 +52,7 @@ struct Reader {
   Seeds (*seeds)();
   Read read;
   std::size_t bytes_a_byte;  // memory that a byte of a file may take
-  std::size_t base = 4 * 1024;
+  std::size_t base = 1024;
 };
 
 void PrintTo(const Reader& reader, std::ostream* out) {
