@@ -36,13 +36,4 @@ struct VolumeMesh {
 /// kind or a field (MEDIT: polyhedra and fields), naming it; nothing is written then.
 void write_volume_mesh(const std::filesystem::path& path, const VolumeMesh& mesh);
 
-/// A polygonal surface.
-struct SurfaceMesh {
-  Eigen::Matrix3Xd positions;
-  std::vector<std::size_t> offsets{0};
-  std::vector<std::uint32_t> corners;
-};
-/// Writes .obj, .ply (binary little endian, double) or .stl (binary; polygons are triangulated).
-void write_surface(const std::filesystem::path& path, const SurfaceMesh& mesh);
-
 }  // namespace argil::io
