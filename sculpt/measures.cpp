@@ -9,7 +9,9 @@
 #include "sculpt/document_loads.h"
 #include "sculpt/near_names.h"
 #include "sculpt/region.h"
+#include "subdiv/boundary.h"
 #include "subdiv/error.h"
+#include "subdiv/radial_edge.h"
 
 namespace argil::sculpt {
 
@@ -74,6 +76,9 @@ const std::vector<MeasureInfo>& measure_table() {
         {"cells", "", "cells at the finest level"},
         {"control_cells", "", "cells of the control solid"},
         {"elements", "", "elements integrated"},
+        {"pyramids", "", "pyramidal elements among them"},
+        {"components", "", "parts of the control solid that share no face"},
+        {"genus", "", "handles of the boundary of the control solid"},
         {"unknowns", "", "free coordinates of control points"},
         {"max_displacement", "m", "largest distance of a node from rest", false, true},
         {"max_speed", "m/s", "largest speed of a node", false, true},
@@ -133,6 +138,9 @@ double measure(const Document& document, const MeasureQuery& query) {
     const auto& e = document.discretization().elements;
     return static_cast<double>(e.cubic + e.linear + e.pyramid);
   }
+  if (name == "pyramids") return static_cast<double>(document.discretization().elements.pyramid);
+  if (name == "components") return subdiv::components(document.solid()).count;
+  if (name == "genus") return subdiv::boundary_surface(document.solid()).genus;
   if (name == "unknowns")
     return 3.0 *
            static_cast<double>(document.solid().vertex_count() - document.state().pins->control_points.size());

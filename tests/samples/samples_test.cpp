@@ -17,8 +17,9 @@ using nlohmann::json;
 
 std::vector<std::string> sample_names() {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(ARGIL_SAMPLES_DIR))
-    if (entry.path().extension() == ".argil") names.push_back(entry.path().stem().string());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(ARGIL_SAMPLES_DIR))
+    if (entry.path().extension() == ".argil")
+      names.push_back(fs::relative(entry.path(), ARGIL_SAMPLES_DIR).replace_extension().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -92,13 +93,20 @@ TEST_P(Samples, ReachTheSameStateWithOneThreadAndWithTwo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn(sample_names()),
-                         [](const testing::TestParamInfo<std::string>& instance) { return instance.param; });
+                         [](const testing::TestParamInfo<std::string>& instance) {
+                           std::string name = instance.param;
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name;
+                         });
 
 TEST(References, AreThoseOfSamplesThatAreThere) {
   const auto names = sample_names();
-  for (const fs::directory_entry& entry : fs::directory_iterator(reference("")))
-    EXPECT_TRUE(std::find(names.begin(), names.end(), entry.path().stem().string()) != names.end())
-        << entry.path() << " belongs to no sample; remove it";
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(reference("")))
+    if (entry.path().extension() == ".json") {
+      const std::string name = fs::relative(entry.path(), reference("")).replace_extension().string();
+      EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end())
+          << entry.path() << " belongs to no sample; remove it";
+    }
 }
 
 TEST(References, ShrinkToTheMeanAndTellPicturesApart) {
