@@ -285,7 +285,7 @@ RandomEdit RandomEdits::sharpen() {
 RandomEdit RandomEdits::mirror() {
   Eigen::AlignedBox3d box;
   for (const VertexId v : document_->solid().vertices()) box.extend(position(*document_, v));
-  if (pick(4) == 0) return {"mirror", {}, fmt::format("mirror {} flip", "normal 1 0 0")};
+  if (pick(4) == 0) return {"mirror", {"select cells"}, "mirror normal 1 0 0 flip"};
   const std::size_t axis = pick(3);
   const bool high = pick(2) == 0;
   static const char* const normals[] = {"1 0 0", "0 1 0", "0 0 1"};
@@ -360,7 +360,7 @@ RandomEdit RandomEdits::next(const Document& document) {
       return {"join", {}, fmt::format("join box {} 1 1 at {}", 1 + pick(2), vector(-2, 2))};
     case 26:
       return {"transform",
-              {},
+              {"select vertices"},
               fmt::format("transform scale {:.3f} rotate {:.2f} axis {}", number(0.9, 1.1), number(-90, 90),
                           direction())};
     case 27:
@@ -369,10 +369,12 @@ RandomEdit RandomEdits::next(const Document& document) {
               fmt::format("move {} where {}", vector(-0.05, 0.05),
                           at(position(document, random_element(solid.vertices(), [](VertexId) { return true; }))))};
     case 28:
-      return {"smooth", {}, fmt::format("smooth times {} amount {:.2f}", 1 + pick(3), number(0.1, 0.6))};
+      return {"smooth",
+              {"select vertices"},
+              fmt::format("smooth times {} amount {:.2f}", 1 + pick(3), number(0.1, 0.6))};
     default:
       return {"project",
-              {},
+              {"select vertices"},
               fmt::format("project ball {:.3f} at {} amount {:.2f}", size, vector(-0.5, 0.5), number(0.05, 0.5))};
   }
 }
