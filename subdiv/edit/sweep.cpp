@@ -53,9 +53,8 @@ class Region {
     middle_of_all_ = total / count;
     for (const FaceId f : faces) {
       const auto loop = use_vertices(solid, solid.boundary_use(f));
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        area_[patches.find(numbers.at(loop[0]))] +=
-            Eigen::Vector3d(at(loop[i]).cross(at(loop[(i + 1) % loop.size()])));
+      auto& area = area_.try_emplace(patches.find(numbers.at(loop[0])), Eigen::Vector3d::Zero()).first->second;
+      for (std::size_t i = 0; i < loop.size(); ++i) area += at(loop[i]).cross(at(loop[(i + 1) % loop.size()]));
     }
     for (const auto& [v, number] : numbers) patch_[v] = patches.find(number);
   }
