@@ -114,17 +114,21 @@ void PointRules::check_elements() const {
   for (const FaceId f : s.faces())
     if (!s.owner(face_use(f, false)).valid() && !s.owner(face_use(f, true)).valid())
       throw Error(ErrorCode::bad_topology,
-                  fmt::format("face {} belongs to no cell: only cells can be refined; remove it", f.value),
+                  fmt::format("face {} belongs to no cell: only cells can be refined; `remove dangling` sweeps it",
+                              f.value),
                   fmt::format("face {}", f.value));
   for (const EdgeId e : s.edges())
     if (s.edge_valence(e) == 0)
-      throw Error(ErrorCode::bad_topology,
-                  fmt::format("{} belongs to no cell: only cells can be refined; remove it", name(s, e)),
-                  name(s, e));
+      throw Error(
+          ErrorCode::bad_topology,
+          fmt::format("{} belongs to no cell: only cells can be refined; `remove dangling` sweeps it", name(s, e)),
+          name(s, e));
   for (const VertexId v : s.vertices()) {
     if (s.vertex_valence(v) == 0)
-      throw Error(ErrorCode::bad_topology,
-                  fmt::format("{} belongs to no cell: only cells can be refined; remove it", name(v)), name(v));
+      throw Error(
+          ErrorCode::bad_topology,
+          fmt::format("{} belongs to no cell: only cells can be refined; `remove dangling` sweeps it", name(v)),
+          name(v));
     check_sharpness(s.vertex_sharpness(v), incidence_.is_boundary(v), name(v));
   }
 }

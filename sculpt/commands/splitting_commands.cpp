@@ -59,7 +59,8 @@ void cut_by_plane(Session& session, const Arguments& arguments) {
                 "expected the direction across the plane, as in `cut plane 0 0 1 at 0 0 0.5`");
   const Document& document = session.document();
   std::vector<CellId> cells;
-  if (arguments.has("where") || document.state().selection->type == ElementType::cells)
+  const Selection& selection = *document.state().selection;
+  if (arguments.has("where") || (selection.type == ElementType::cells && !selection.ids.empty()))
     cells = ids_of<CellId>(acted_on(session, arguments, k_cells));
   else
     cells.assign(document.solid().cells().begin(), document.solid().cells().end());
@@ -167,15 +168,15 @@ std::vector<Command> splitting_commands() {
        .summary =
            "Subdivides cells where they are: a box gives 8, any cell one at each corner. The shape stays, and "
            "cells beside them keep whole. The new cells are selected then.",
-       .parameters = {{.name = "times",
-                       .type = ArgumentType::integer,
-                       .help = "splits the new cells again, so often in all",
-                       .low = 1,
-                       .high = 8},
-                      {.name = "where",
-                       .type = ArgumentType::expression,
-                       .help = "the cells; else those selected"}},
-       .example = "split times 2 where x > 0.5 and y > 0.5 and z > 0.5",
+       .parameters =
+           {{.name = "times",
+             .type = ArgumentType::integer,
+             .help = "splits the new cells again, so often in all; cells beside much finer ones may be too "
+                     "uneven to simulate",
+             .low = 1,
+             .high = 8},
+            {.name = "where", .type = ArgumentType::expression, .help = "the cells; else those selected"}},
+       .example = "split where x > 0.5 and y > 0.5 and z > 0.5",
        .before = {"new box 2 2 2"},
        .run = split},
       {.name = "cut",

@@ -77,8 +77,8 @@ Sweep asked_sweep(const Session& session, const Arguments& arguments, const Sele
 }
 
 void extrude_faces(Session& session, const Arguments& arguments) {
-  const Selection selection = acted_on(session, arguments, k_faces);
   check_ways(arguments);
+  const Selection selection = acted_on(session, arguments, k_faces);
   const std::vector<FaceId> faces = boundary_faces(session, selection, "extrude");
   const Sweep how = asked_sweep(session, arguments, selection);
   check_cells(session, static_cast<double>(session.document().solid().cell_count()) +

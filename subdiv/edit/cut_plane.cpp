@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "subdiv/edit/cuts.h"
@@ -139,7 +141,9 @@ class PlaneCutter {
       if (!directed.count({edge.second, edge.first}) && !next.emplace(edge.first, edge.second).second)
         fail(cell, "a vertex");
     Loop loop;
-    for (VertexId v = next.begin()->first; loop.empty() || v != loop[0]; v = next.at(v)) loop.push_back(v);
+    for (auto at = next.begin(); at != next.end() && loop.size() < next.size(); at = next.find(at->second))
+      loop.push_back(at->first);
+    if (loop.size() < 3 || next.at(loop.back()) != loop[0]) fail(cell, "the surface");
     if (loop.size() != next.size()) fail(cell, "the surface");
     return loop;
   }

@@ -29,14 +29,20 @@ class Region {
     std::uint32_t count = 0;
     for (auto& [v, number] : numbers) number = count++;
     DisjointSets patches(count);
+    std::vector<Eigen::Vector3d> areas;  // twice
     for (const FaceId f : faces) {
       const auto loop = use_vertices(solid, solid.boundary_use(f));
-      Eigen::Vector3d area = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < loop.size(); ++i) area += at(loop[i]).cross(at(loop[(i + 1) % loop.size()]));
+      areas.push_back(Eigen::Vector3d::Zero());
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        areas.back() += at(loop[i]).cross(at(loop[(i + 1) % loop.size()]));
       for (const VertexId v : loop) {
         patches.unite(numbers.at(v), numbers.at(loop[0]));
-        normals_[v].push_back(area);
+        normals_[v].push_back(areas.back());
       }
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const std::uint32_t patch = patches.find(numbers.at(solid.face_vertices(faces[i])[0]));
+      area_.try_emplace(patch, Eigen::Vector3d::Zero()).first->second += areas[i];
     }
     std::map<std::uint32_t, std::pair<Eigen::Vector3d, double>> sums;
     for (const auto& [v, number] : numbers) {
@@ -51,12 +57,6 @@ class Region {
       total += at(v);
     }
     middle_of_all_ = total / count;
-    for (const FaceId f : faces) {
-      const auto loop = use_vertices(solid, solid.boundary_use(f));
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        area_[patches.find(numbers.at(loop[0]))] +=
-            Eigen::Vector3d(at(loop[i]).cross(at(loop[(i + 1) % loop.size()])));
-    }
     for (const auto& [v, number] : numbers) patch_[v] = patches.find(number);
   }
 

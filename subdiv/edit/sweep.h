@@ -15,11 +15,12 @@ struct Sweep {
   Way way = Way::vector;
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();  // of the far end from the near one [m]
   double distance = 0;                               // along the normals [m]
-  std::vector<Eigen::Vector3d> path;  // where the middle of the faces goes from where it is [m]; corners are mitred
-  bool curve = false;                 // through the points by a centripetal Catmull–Rom curve
-  int steps = 1;     // rings of cells; along a path at least one for each leg, unless it is a curve
-  double scale = 1;  // size of the far end against the near one
-  double twist = 0;  // of the far end against the near one, right-handed about the way [rad]
+  std::vector<Eigen::Vector3d>
+      path{};          // where the middle of the faces goes from where it is [m]; corners are mitred
+  bool curve = false;  // through the points by a centripetal Catmull–Rom curve
+  int steps = 1;       // rings of cells; along a path at least one for each leg, unless it is a curve
+  double scale = 1;    // size of the far end against the near one
+  double twist = 0;    // of the far end against the near one, right-handed about the way [rad]
 };
 
 /// Extrudes (extrude.h) and places. Taper and twist are about the middle of each patch, the faces connected through
