@@ -146,6 +146,8 @@ Edit fill(Transaction& transaction, const Eigen::Matrix3Xd& positions, std::span
                   fmt::format("face {}", change.glued[0].value));
     edit.next_cells.push_back(made);
   }
+  for (const FaceId f : change.glued)
+    if (solid.is_live(f)) check_boundary_left(solid, solid.face_vertices(f));
   for (std::size_t f = first_face; f < solid.face_capacity(); ++f) edit.next_faces.emplace_back(f);
   return edit;
 }
