@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <map>
 #include <random>
 
@@ -149,15 +148,12 @@ class RandomEdits {
   void run(const std::string& name, const EditModel::Tool& tool) {
     SCOPED_TRACE(name);
     const std::uint64_t before = model_.solid.topology_hash();
-    ++accepted_[name + " tried"];
     try {
       model_.apply(tool);
       ++accepted_[name];
     } catch (const Error& error) {
       EXPECT_EQ(model_.solid.topology_hash(), before) << error.what();
       EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("a new cell would lie in")));
-      if (std::getenv("ARGIL_FUZZ_REASONS") != nullptr)
-        ++accepted_[name + ": " + std::string(error.what()).substr(0, 400)];
     }
   }
 
@@ -181,8 +177,7 @@ std::map<std::string, int> accepted_edits(unsigned first_seed, unsigned seeds, i
 }
 
 TEST(JoiningFuzz, RandomEditsLeaveValidSolidsAndCanBeUndone) {
-  const auto accepted = accepted_edits(std::getenv("FZ0") ? unsigned(atoi(std::getenv("FZ0"))) : 1, std::getenv("FZ") ? unsigned(atoi(std::getenv("FZ"))) : 3, 40);
-  if (std::getenv("ARGIL_FUZZ_REASONS")) for (auto& [a, b] : accepted) std::cerr << b << " " << a << "\n";
+  const auto accepted = accepted_edits(1, 3, 40);
   // So that the random choices keep meeting what the tools take.
   for (const char* tool : {"merge", "weld", "bridge", "collapse edges", "collapse faces", "collapse cells", "fill"})
     EXPECT_GE(accepted.count(tool) ? accepted.at(tool) : 0, 20) << tool;
