@@ -57,8 +57,8 @@ void report_flat_cells(const Session& session, const std::vector<CellId>& cells)
   std::size_t flat = 0;
   for (const CellId c : cells) flat += cell_volume(document.solid(), *document.state().rest, c) > 1e-12 ? 0 : 1;
   if (flat > 0)
-    session.print(fmt::format("{} of the {} flat or inside out; `arc` rounds a bridge, or move its ends apart",
-                              flat, counted(cells.size(), "new cell", "new cells") + (flat == 1 ? " is" : " are")));
+    session.print(fmt::format("flat or inside out: {} of {}; `arc` rounds a bridge, or move its ends apart", flat,
+                              counted(cells.size(), "new cell", "new cells")));
 }
 
 void merge_regions(Session& session, const Arguments& arguments) {
