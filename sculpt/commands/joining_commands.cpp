@@ -47,8 +47,8 @@ std::array<std::vector<FaceId>, 2> two_regions(const Session& session, const Arg
   return {faces, ids<FaceId>(found->second)};
 }
 
-std::string counted(std::size_t count, const char* one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : (std::string(one) == "vertex" ? "es" : "s"));
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
 // A cell without volume can be meant, on the way to another shape; but the user should know.
@@ -57,8 +57,8 @@ void report_flat_cells(const Session& session, const std::vector<CellId>& cells)
   std::size_t flat = 0;
   for (const CellId c : cells) flat += cell_volume(document.solid(), *document.state().rest, c) > 1e-12 ? 0 : 1;
   if (flat > 0)
-    session.print(fmt::format("{} of the {} flat or inside out; `arc` rounds a bridge, or move its ends apart",
-                              flat, counted(cells.size(), "new cell") + (flat == 1 ? " is" : " are")));
+    session.print(fmt::format("flat or inside out: {} of {}; `arc` rounds a bridge, or move its ends apart", flat,
+                              counted(cells.size(), "new cell", "new cells")));
 }
 
 void merge_regions(Session& session, const Arguments& arguments) {
@@ -71,7 +71,8 @@ void merge_regions(Session& session, const Arguments& arguments) {
     gone = edit.merged.size();
     return edit;
   });
-  session.print(fmt::format("glued {}, {} gone", counted(first.size(), "pair of face"), counted(gone, "vertex")));
+  session.print(fmt::format("glued {}, {} gone", counted(first.size(), "pair of faces", "pairs of faces"),
+                            counted(gone, "vertex", "vertices")));
 }
 
 void weld_vertices(Session& session, const Arguments& arguments) {
@@ -90,8 +91,8 @@ void weld_vertices(Session& session, const Arguments& arguments) {
   });
   session.print(done.vertices_gone == 0
                     ? "nothing lies within the tolerance; a larger one may be given with `tolerance`"
-                    : fmt::format("welded: {} gone, {} glued", counted(done.vertices_gone, "vertex"),
-                                  counted(done.faces_glued, "pair of face")));
+                    : fmt::format("welded: {} gone, {} glued", counted(done.vertices_gone, "vertex", "vertices"),
+                                  counted(done.faces_glued, "pair of faces", "pairs of faces")));
 }
 
 void bridge_regions(Session& session, const Arguments& arguments) {
@@ -122,7 +123,7 @@ void collapse_elements(Session& session, const Arguments& arguments) {
     return collapse(transaction, ids<CellId>(selection), anchors);
   });
   if (const std::size_t gone = before - session.document().solid().cell_count(); gone > 0)
-    session.print(counted(gone, "cell") + " lost all volume and vanished");
+    session.print(counted(gone, "cell", "cells") + " lost all volume and vanished");
 }
 
 void fill_openings(Session& session, const Arguments& arguments) {
@@ -133,7 +134,7 @@ void fill_openings(Session& session, const Arguments& arguments) {
     cells = edit.next_cells.size();
     return edit;
   });
-  session.print("filled with " + counted(cells, "cell"));
+  session.print("filled with " + counted(cells, "cell", "cells"));
 }
 
 }  // namespace
@@ -177,7 +178,7 @@ std::vector<Command> joining_commands() {
                        .help = "only these vertices; else all of the boundary"}},
        .example = "weld tolerance 0.02",
        .before = {"new box 3 1 1 size 6 2 2", "remove where x > 2 and x < 4", "select vertices where x > 3",
-                  "move by -1.99 0 0"},
+                  "move -1.99 0 0"},
        .run = weld_vertices},
       {.name = "bridge",
        .summary =

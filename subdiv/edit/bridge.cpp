@@ -71,6 +71,7 @@ class Bridger {
     check_new_cells(t_.solid(), change);
     const std::size_t before = t_.solid().cell_capacity();
     rewrite(t_, change, edit_);
+    check_boundary_left(t_.solid(), t_.solid().face_vertices(match_.faces[0].first));
     for (std::size_t i = 0; i < match_.vertices.size(); ++i) {
       const auto& column = rings_.at(match_.vertices[i].first);
       for (std::size_t step = 0; step + 1 < column.size(); ++step)

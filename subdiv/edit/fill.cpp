@@ -7,6 +7,7 @@
 #include <map>
 
 #include "subdiv/disjoint_sets.h"
+#include "subdiv/edit/caps.h"
 #include "subdiv/edit/new_cells.h"
 #include "subdiv/edit/regions.h"
 #include "subdiv/error.h"
@@ -77,22 +78,25 @@ std::vector<Loop> open_loops(const std::vector<Loop>& sides) {
 }
 
 // Lies on the outer sides of the faces, with caps.
-NewCell cell_for(const Solid& solid, const Patch& patch, std::vector<Loop>& caps) {
+NewCell cell_for(const Solid& solid, const Eigen::Matrix3Xd& positions, const Patch& patch,
+                 std::vector<Loop>& caps) {
   NewCell cell;
   for (const FaceId f : patch) {
     Loop loop = use_vertices(solid, solid.boundary_use(f));
     std::reverse(loop.begin(), loop.end());
     cell.loops.push_back(std::move(loop));
   }
-  caps = open_loops(cell.loops);
-  for (const Loop& cap : caps)
+  for (const Loop& open : open_loops(cell.loops)) {
     for (const FaceId f : patch)
-      if (solid.find_face(cap) == f)
+      if (solid.find_face(open) == f)
         throw Error(ErrorCode::bad_topology,
                     fmt::format("face {} alone is no opening: a cap over loop {} would lie on it; select the faces "
                                 "around the opening too, or use bridge between two that face each other",
-                                f.value, names(cap)),
+                                f.value, names(open)),
                     fmt::format("face {}", f.value));
+    const auto over = caps_over(solid, positions, open);
+    caps.insert(caps.end(), over.begin(), over.end());
+  }
   cell.loops.insert(cell.loops.end(), caps.begin(), caps.end());
   return cell;
 }
@@ -107,7 +111,7 @@ void check(const Solid& solid, const Rewrite& change, const std::vector<std::vec
       for (const Loop& cap : of_cell) open += (open.empty() ? "" : ", ") + names(cap);
     throw Error(error.code(),
                 fmt::format("the faces do not close to one ball{}{}: {}",
-                            open.empty() ? "" : " with caps over the open loops ", open, error.what()),
+                            open.empty() ? "" : " with caps over the loops ", open, error.what()),
                 error.where());
   }
 }
@@ -122,7 +126,7 @@ Edit fill(Transaction& transaction, const Eigen::Matrix3Xd& positions, std::span
   std::vector<double> sizes;
   for (const Patch& patch : openings(solid, faces)) {
     caps.emplace_back();
-    change.added.push_back(cell_for(solid, patch, caps.back()));
+    change.added.push_back(cell_for(solid, positions, patch, caps.back()));
     change.glued.insert(change.glued.end(), patch.begin(), patch.end());
     double area = 0;
     for (const FaceId f : patch) area += area_vector(solid, positions, std::array{f}).norm();
@@ -146,6 +150,8 @@ Edit fill(Transaction& transaction, const Eigen::Matrix3Xd& positions, std::span
                   fmt::format("face {}", change.glued[0].value));
     edit.next_cells.push_back(made);
   }
+  for (const FaceId f : change.glued)
+    if (solid.is_live(f)) check_boundary_left(solid, solid.face_vertices(f));
   for (std::size_t f = first_face; f < solid.face_capacity(); ++f) edit.next_faces.emplace_back(f);
   return edit;
 }

@@ -9,8 +9,8 @@
 namespace argil::subdiv {
 
 /// One new cell for each patch of boundary faces that are connected through edges, bounded by their outer sides and
-/// by a new cap face over every loop of edges that stays open. Where a face stands in a cap's place already, it
-/// bounds the cell.
+/// by new cap faces over every loop of edges that stays open: one over a flat loop, else a few (caps.h). Where a
+/// face stands in a cap's place already, it bounds the cell.
 /// @throws Error, the transaction to be abandoned: as check_boundary_faces; (bad_topology) naming the loop where
 /// the sides do not close to one sphere, and what to select instead; (bad_geometry) where they do not surround an
 /// opening, but bulge out or lie flat. Cost O(faces and about them, log).

@@ -120,8 +120,9 @@ std::vector<Joined> joined(std::span<const std::pair<VertexId, VertexId>> pairs)
 
 void identify(Transaction& transaction, std::span<const Joined> groups, Flattening flattening, Edit& edit) {
   rewrite(transaction, Identifier(transaction.solid(), groups, flattening).run(), edit);
-  // Where the last cell at a vertex vanished, there is nothing to follow.
-  std::erase_if(edit.merged, [&](const auto& merged) { return !transaction.solid().is_live(merged.made); });
+  std::vector<VertexId> kept;
+  for (const Joined& group : groups) kept.push_back(group[0]);
+  check_boundary_left(transaction.solid(), kept);
 }
 
 }  // namespace argil::subdiv

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "subdiv/cell_check.h"
 #include "subdiv/error.h"
+#include "subdiv/radial_edge.h"
 
 namespace argil::subdiv {
 
@@ -41,6 +43,24 @@ void check_sphere(const NewCell& cell) {
         name_of(cell.source));
 }
 
+// Walks from cell to cell through faces until one is boundary, or was seen on an earlier walk that met one.
+bool meets_boundary(const Solid& solid, CellId from, std::set<CellId>& seen) {
+  std::vector<CellId> front{from};
+  std::set<CellId> walked{from};
+  bool met = false;
+  while (!front.empty() && !met) {
+    const CellId c = front.back();
+    front.pop_back();
+    for (const FaceUseId use : solid.cell_face_uses(c)) {
+      const CellId next = solid.owner(other_side(use));
+      met = met || !next.valid() || seen.count(next) > 0;
+      if (next.valid() && walked.insert(next).second) front.push_back(next);
+    }
+  }
+  seen.merge(walked);
+  return met;
+}
+
 }  // namespace
 
 void check_new_cells(const Solid& solid, const Rewrite& change) {
@@ -61,6 +81,19 @@ void check_new_cells(const Solid& solid, const Rewrite& change) {
                   name_of(cell.source));
     }
   }
+}
+
+void check_boundary_left(const Solid& solid, std::span<const VertexId> vertices) {
+  std::set<CellId> seen;
+  for (const VertexId v : vertices)
+    for (const CellId c : solid.is_live(v) ? vertex_cells(solid, v) : std::vector<CellId>{})
+      if (seen.count(c) == 0 && !meets_boundary(solid, c, seen))
+        throw Error(
+            ErrorCode::bad_topology,
+            fmt::format("the part of cell {} would have no boundary left, and there is no such solid in space; "
+                        "choose fewer faces",
+                        c.value),
+            name_of(c));
 }
 
 }  // namespace argil::subdiv

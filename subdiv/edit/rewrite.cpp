@@ -60,6 +60,9 @@ class Rewriter {
     for (const FaceId f : before_.faces) pass_on(f);
     for (const auto& [loop, source] : change_.cut_faces) pass_on(loop, source);
     sweep();
+    forget_what_was_swept(edit_.merged);
+    forget_what_was_swept(edit_.edges);
+    forget_what_was_swept(edit_.faces);
     touched_.insert(touched_.end(), before_.vertices.begin(), before_.vertices.end());
     sort_unique(touched_);
     std::erase_if(touched_, [&](VertexId v) { return !solid().is_live(v); });
@@ -131,6 +134,12 @@ class Rewriter {
       if (solid().is_live(e) && solid().edge_valence(e) == 0) t_.remove_edge(e);
     for (const VertexId v : before_.vertices)
       if (solid().is_live(v) && solid().vertex_valence(v) == 0) t_.remove_vertex(v);
+  }
+
+  // Where a cell vanishes, what others became may go with it.
+  template <class IdType>
+  void forget_what_was_swept(std::vector<Descent<IdType>>& descent) const {
+    std::erase_if(descent, [&](const Descent<IdType>& d) { return !solid().is_live(d.made); });
   }
 
   Transaction& t_;

@@ -48,6 +48,24 @@ class Grid {
   std::vector<Entry> entries_;
 };
 
+// The ends of an edge of the candidates that is within the tolerance.
+std::vector<std::pair<VertexId, VertexId>> short_edge(const Solid& solid, const Eigen::Matrix3Xd& positions,
+                                                      const std::vector<VertexId>& candidates, double tolerance) {
+  std::vector<std::pair<VertexId, VertexId>> found;
+  for (const VertexId v : candidates) {
+    solid.for_each_edge(v, [&](EdgeId e) {
+      const VertexId other = solid.other_vertex(e, v);
+      const double length = (positions.col(static_cast<Eigen::Index>(v.index())) -
+                             positions.col(static_cast<Eigen::Index>(other.index())))
+                                .norm();
+      if (found.empty() && length <= tolerance && std::binary_search(candidates.begin(), candidates.end(), other))
+        found.emplace_back(v, other);
+    });
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
 }  // namespace
 
 double extent(const Solid& solid, const Eigen::Matrix3Xd& positions) {
@@ -74,7 +92,11 @@ Weld weld(Transaction& transaction, const Eigen::Matrix3Xd& positions, std::span
   }
   // No finer than what the box numbers hold.
   const double box = std::max({tolerance, 1e-15 * reach, 1e-300});
-  const auto groups = joined(Grid(positions, candidates, box).pairs_within(tolerance));
+  // An edge so short will be refused: at once, before a tolerance that spans everything pairs all with all.
+  std::sort(candidates.begin(), candidates.end());
+  auto pairs = short_edge(solid, positions, candidates, tolerance);
+  if (pairs.empty()) pairs = Grid(positions, candidates, box).pairs_within(tolerance);
+  const auto groups = joined(pairs);
 
   Weld result;
   const std::size_t faces = solid.face_count();
