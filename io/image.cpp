@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/file_bytes.h"
+#include "io/number_type.h"
 #include "subdiv/error.h"
 
 #pragma GCC diagnostic push
@@ -28,6 +29,25 @@ namespace {
 
 constexpr int k_channels = 4;
 
+// stb_image allocates what a chunk counts before it looks whether the file holds so much.
+void check_chunks(std::string_view bytes, std::string_view name) {
+  constexpr std::size_t k_signature = 8, k_around = 12;  // length, type and checksum of a chunk
+  for (std::size_t at = k_signature; at < bytes.size();) {
+    const std::size_t left = bytes.size() - at;
+    const std::uint64_t length = left < k_around ? 0 : decode_unsigned(bytes.data() + at, 4, true);
+    if (left < k_around || length > left - k_around) {
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("expected a part of a PNG picture in the {} bytes left, found one of {}; was the file "
+                      "cut short?",
+                      left, length + k_around),
+          fmt::format("{}: byte {}", name, at));
+    }
+    if (bytes.substr(at + 4, 4) == "IEND") return;
+    at += k_around + length;
+  }
+}
+
 void append(void* bytes, void* part, int size) {
   static_cast<std::string*>(bytes)->append(static_cast<const char*>(part), static_cast<std::size_t>(size));
 }
@@ -47,7 +67,10 @@ void write_png(const std::filesystem::path& path, int width, int height, const s
 }
 
 Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+  return read_png(read_file(path), path.string());
+}
+
+Image read_png(std::string_view bytes, std::string_view name) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT32_MAX));
   Image image;
@@ -57,13 +80,14 @@ Image read_png(const std::filesystem::path& path) {
       stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0 ||
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) / 8 / 1032 > bytes.size()) {
     throw Error(ErrorCode::bad_input, "expected a PNG picture, found something else or a damaged one",
-                path.string());
+                std::string(name));
   }
+  check_chunks(bytes, name);
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(data, size, &image.width, &image.height, &channels, k_channels), stbi_image_free);
   if (!pixels) {
     throw Error(ErrorCode::bad_input, fmt::format("the PNG picture is damaged: {}", stbi_failure_reason()),
-                path.string());
+                std::string(name));
   }
   const std::size_t count =
       std::size_t{k_channels} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

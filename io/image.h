@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace argil::io {
@@ -16,5 +17,6 @@ struct Image {
 };
 /// @throws Error (bad_input).
 [[nodiscard]] Image read_png(const std::filesystem::path& path);
+[[nodiscard]] Image read_png(std::string_view bytes, std::string_view name);
 
 }  // namespace argil::io

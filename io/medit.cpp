@@ -168,10 +168,7 @@ class Reader {
 const std::vector<double>* references(const std::vector<NamedField>& fields, std::string_view items) {
   const std::vector<double>* found = nullptr;
   for (const NamedField& field : fields) {
-    const bool integers = std::all_of(field.values.begin(), field.values.end(), [](double value) {
-      return std::abs(value) <= static_cast<double>(k_largest_reference) && value == std::trunc(value);
-    });
-    if (field.name != k_reference || field.components != 1 || !integers) {
+    if (!is_medit_reference(field)) {
       throw Error(
           ErrorCode::unsupported,
           fmt::format("MEDIT cannot hold the field {} of the {}, only whole numbers named \"{}\"; write .vtu or "
@@ -193,7 +190,14 @@ VolumeMesh read_medit(std::string_view text, std::string_view name) {
   return Reader(text, name).read();
 }
 
-std::string medit_text(const VolumeMesh& mesh) {
+bool is_medit_reference(const NamedField& field) {
+  return field.name == k_reference && field.components == 1 &&
+         std::all_of(field.values.begin(), field.values.end(), [](double value) {
+           return std::abs(value) <= static_cast<double>(k_largest_reference) && value == std::trunc(value);
+         });
+}
+
+std::string medit_text(const VolumeMesh& mesh, const WriteOptions&) {
   const auto& cells = mesh.cells;
   for (std::size_t c = 0; c < cells.cell_count(); ++c) {
     if (cells.kinds[c] != CellKind::polyhedron) continue;

@@ -16,6 +16,8 @@ namespace argil::io {
 [[nodiscard]] VolumeMesh read_medit(std::string_view text, std::string_view name);
 
 /// @throws Error (unsupported) naming what MEDIT cannot hold.
-[[nodiscard]] std::string medit_text(const VolumeMesh& mesh);
+[[nodiscard]] std::string medit_text(const VolumeMesh& mesh, const WriteOptions& options = {});
+/// Whether it is the one field that MEDIT holds.
+[[nodiscard]] bool is_medit_reference(const NamedField& field);
 
 }  // namespace argil::io

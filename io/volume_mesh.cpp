@@ -1,41 +1,18 @@
 #include "io/volume_mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "io/file_bytes.h"
-#include "io/medit.h"
 #include "io/text_cursor.h"
-#include "io/vtk.h"
-#include "io/vtu.h"
+#include "io/volume_formats.h"
 
 namespace argil::io {
 namespace {
-
-struct Format {
-  std::string_view ending;
-  VolumeMesh (*read)(std::string_view bytes, std::string_view name);
-  std::string (*text)(const VolumeMesh& mesh);
-};
-constexpr Format k_formats[] = {
-    {".mesh", read_medit, medit_text}, {".vtk", read_vtk, vtk_text}, {".vtu", read_vtu, vtu_bytes}};
-
-const Format* find_format(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  for (const Format& format : k_formats)
-    if (format.ending == ending) return &format;
-  return nullptr;
-}
-
-const Format& format_of(const std::filesystem::path& path) {
-  if (const Format* format = find_format(path)) return *format;
-  throw Error(ErrorCode::unsupported,
-              fmt::format("expected a name that ends in .mesh, .vtk or .vtu, found {}",
-                          in_quotes(path.extension().string())),
-              path.string());
-}
 
 void check_fields(const std::vector<NamedField>& fields, std::size_t items, std::string_view what) {
   for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -70,21 +47,58 @@ void check_writable(const VolumeMesh& mesh) {
   check_fields(mesh.cell_fields, mesh.cells.cell_count(), "cells");
 }
 
+void check_options(const VolumeFormat& format, const WriteOptions& options, const std::filesystem::path& path) {
+  const auto& encodings = format.encodings;
+  if (options.encoding != Encoding::usual &&
+      std::find(encodings.begin(), encodings.end(), options.encoding) == encodings.end()) {
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{} is not written {}; `argil formats` lists the encodings of each format", format.name,
+                            word(options.encoding)),
+                path.string());
+  }
+  const auto& versions = format.versions;
+  if (!options.version.empty() && std::find(versions.begin(), versions.end(), options.version) == versions.end()) {
+    throw Error(ErrorCode::unsupported,
+                fmt::format("{} is not written in version {}; expected {}", format.name, in_quotes(options.version),
+                            versions.empty() ? "none to be named" : fmt::format("{}", fmt::join(versions, " or "))),
+                path.string());
+  }
+}
+
+// A set that the format cannot hold is refused: callers leave it out first, and say so.
+void check_sets(const VolumeMesh& mesh, const VolumeFormat& format) {
+  for (std::size_t s = 0; s < mesh.sets.size(); ++s)
+    for (std::size_t other = 0; other < s; ++other)
+      if (mesh.sets[other].kind == mesh.sets[s].kind && mesh.sets[other].name == mesh.sets[s].name)
+        throw Error(ErrorCode::unsupported,
+                    fmt::format("two sets have the name {}; rename one", in_quotes(mesh.sets[s].name)));
+  VolumeMesh sets;
+  sets.faces = mesh.faces;
+  sets.sets = mesh.sets;
+  const auto notes = leave_out_what_is_not_held(sets, format);
+  if (!notes.empty()) throw Error(ErrorCode::unsupported, notes[0] + "; remove it");
+}
+
 }  // namespace
 
 bool is_volume_format(const std::filesystem::path& path) {
-  return find_format(path) != nullptr;
+  const auto formats = volume_formats();
+  const std::string ending = path.extension().string();
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](const VolumeFormat& format) { return format.ending == ending; });
 }
 
 VolumeMesh read_volume_mesh(const std::filesystem::path& path) {
-  const Format& format = format_of(path);
+  const VolumeFormat& format = volume_format_of(path);
   return format.read(read_file(path), path.string());
 }
 
-void write_volume_mesh(const std::filesystem::path& path, const VolumeMesh& mesh) {
-  const Format& format = format_of(path);
+void write_volume_mesh(const std::filesystem::path& path, const VolumeMesh& mesh, const WriteOptions& options) {
+  const VolumeFormat& format = volume_format_of(path);
+  check_options(format, options, path);
   check_writable(mesh);
-  write_file(path, format.text(mesh));
+  check_sets(mesh, format);
+  write_file(path, format.bytes(mesh, options));
 }
 
 }  // namespace argil::io

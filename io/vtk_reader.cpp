@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/number_type.h"
+#include "io/set_fields.h"
 #include "io/text_cursor.h"
 #include "io/vtk.h"
 #include "io/vtk_cells.h"
@@ -93,6 +94,7 @@ class Reader {
                   cursor_.where(cursor_.offset()));
     }
     append_vtk_cells(cells_, mesh_.cells);
+    take_sets_from_fields(mesh_);
     return std::move(mesh_);
   }
 

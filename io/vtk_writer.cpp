@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "io/set_fields.h"
 #include "io/text_cursor.h"
 #include "io/vtk.h"
 #include "io/vtk_cells.h"
@@ -20,46 +25,92 @@ std::string encoded(std::string_view name) {
   return word;
 }
 
-void append_fields(std::string& text, std::string_view header, std::size_t items,
-                   const std::vector<NamedField>& fields) {
-  if (fields.empty()) return;
-  fmt::format_to(std::back_inserter(text), "{} {}\nFIELD FieldData {}\n", header, items, fields.size());
-  for (const NamedField& field : fields) {
-    fmt::format_to(std::back_inserter(text), "{} {} {} double\n", encoded(field.name), field.components, items);
-    const auto width = static_cast<std::size_t>(field.components);
-    for (std::size_t i = 0; i < field.values.size(); ++i) {
-      append_number(text, field.values[i]);
-      text += (i + 1) % width == 0 ? '\n' : ' ';
+class Writer {
+ public:
+  explicit Writer(bool binary) : binary_(binary) {}
+
+  std::string write(const VolumeMesh& mesh) {
+    const auto& cells = mesh.cells;
+    text_ = fmt::format("# vtk DataFile Version 4.2\nArgil\n{}\nDATASET UNSTRUCTURED_GRID\n",
+                        binary_ ? "BINARY" : "ASCII");
+    const auto points = static_cast<std::size_t>(cells.positions.cols());
+    line("POINTS {} double", points);
+    numbers(cells.positions.data(), 3 * points, 3);
+    line("CELLS {} {}", cells.cell_count(), cells.cell_count() + cells.connectivity.size());
+    for (std::size_t c = 0; c < cells.cell_count(); ++c) {
+      const std::size_t size = cells.offsets[c + 1] - cells.offsets[c];
+      number(static_cast<std::int32_t>(size));
+      for (std::size_t i = cells.offsets[c]; i < cells.offsets[c + 1]; ++i) {
+        if (!binary_) text_ += ' ';
+        number(static_cast<std::int32_t>(cells.connectivity[i]));
+      }
+      if (!binary_) text_ += '\n';
+    }
+    if (binary_) text_ += '\n';
+    std::vector<std::int32_t> types;
+    for (const auto kind : cells.kinds) types.push_back(vtk_type(kind));
+    line("CELL_TYPES {}", types.size());
+    numbers(types.data(), types.size(), 1);
+    attributes("POINT_DATA", points, mesh.point_fields, mesh.sets, SetKind::points);
+    attributes("CELL_DATA", cells.cell_count(), mesh.cell_fields, mesh.sets, SetKind::cells);
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_ += '\n';
+  }
+
+  template <class T>
+  void number(T value) {
+    if (binary_) {  // big endian
+      char bytes[sizeof value];
+      std::memcpy(bytes, &value, sizeof value);
+      if constexpr (std::endian::native == std::endian::little) std::reverse(bytes, bytes + sizeof value);
+      text_.append(bytes, sizeof value);
+    } else if constexpr (std::is_same_v<T, double>) {
+      append_number(text_, value);
+    } else {
+      fmt::format_to(std::back_inserter(text_), "{}", static_cast<int>(value));
     }
   }
-}
+
+  template <class T>
+  void numbers(const T* values, std::size_t count, std::size_t on_a_line) {
+    for (std::size_t i = 0; i < count; ++i) {
+      number(values[i]);
+      if (!binary_) text_ += (i + 1) % on_a_line == 0 ? '\n' : ' ';
+    }
+    if (binary_) text_ += '\n';
+  }
+
+  void attributes(std::string_view header, std::size_t items, const std::vector<NamedField>& fields,
+                  const std::vector<NamedSet>& sets, SetKind kind) {
+    const auto held =
+        static_cast<std::size_t>(std::count_if(sets.begin(), sets.end(), [&](auto& s) { return s.kind == kind; }));
+    if (fields.empty() && held == 0) return;
+    line("{} {}\nFIELD FieldData {}", header, items, fields.size() + held);
+    for (const NamedField& field : fields) {
+      line("{} {} {} double", encoded(field.name), field.components, items);
+      numbers(field.values.data(), field.values.size(), static_cast<std::size_t>(field.components));
+    }
+    for (const NamedSet& set : sets) {
+      if (set.kind != kind) continue;
+      line("{} 1 {} unsigned_char", encoded(std::string(k_set_prefix) + set.name), items);
+      numbers(membership(set, items).data(), items, 1);
+    }
+  }
+
+  std::string text_;
+  bool binary_;
+};
 
 }  // namespace
 
-std::string vtk_text(const VolumeMesh& mesh) {
-  const auto& cells = mesh.cells;
-  std::string text = "# vtk DataFile Version 4.2\nArgil\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-  fmt::format_to(std::back_inserter(text), "POINTS {} double\n", cells.positions.cols());
-  for (Eigen::Index v = 0; v < cells.positions.cols(); ++v) {
-    for (int axis = 0; axis < 3; ++axis) {
-      append_number(text, cells.positions(axis, v));
-      text += axis == 2 ? '\n' : ' ';
-    }
-  }
-  fmt::format_to(std::back_inserter(text), "CELLS {} {}\n", cells.cell_count(),
-                 cells.cell_count() + cells.connectivity.size());
-  for (std::size_t c = 0; c < cells.cell_count(); ++c) {
-    fmt::format_to(std::back_inserter(text), "{}", cells.offsets[c + 1] - cells.offsets[c]);
-    for (std::size_t i = cells.offsets[c]; i < cells.offsets[c + 1]; ++i) {
-      fmt::format_to(std::back_inserter(text), " {}", cells.connectivity[i]);
-    }
-    text += '\n';
-  }
-  fmt::format_to(std::back_inserter(text), "CELL_TYPES {}\n", cells.cell_count());
-  for (const auto kind : cells.kinds) fmt::format_to(std::back_inserter(text), "{}\n", vtk_type(kind));
-  append_fields(text, "POINT_DATA", static_cast<std::size_t>(cells.positions.cols()), mesh.point_fields);
-  append_fields(text, "CELL_DATA", cells.cell_count(), mesh.cell_fields);
-  return text;
+std::string vtk_text(const VolumeMesh& mesh, const WriteOptions& options) {
+  return Writer(options.encoding == Encoding::binary).write(mesh);
 }
 
 }  // namespace argil::io

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "io/set_fields.h"
 #include "io/vtk_cells.h"
 #include "io/vtu.h"
 #include "io/vtu_document.h"
@@ -41,6 +42,7 @@ class Reader {
       document_.finish_appended_data();
     }
     if (cells == 0) document_.fail(piece, "the file has no cells; expected at least one");
+    take_sets_from_fields(mesh_);
     return std::move(mesh_);
   }
 

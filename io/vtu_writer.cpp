@@ -1,9 +1,13 @@
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 
+#include "io/set_fields.h"
+#include "io/text_cursor.h"
 #include "io/vtk_cells.h"
 #include "io/vtu.h"
 
@@ -44,28 +48,37 @@ constexpr std::string_view type_name() {
   return "UInt8";
 }
 
-// The two halves of the file grow together.
+constexpr std::size_t k_block = std::size_t{1} << 20;
+
+// The two halves of the file, where it has two, grow together.
 class Writer {
  public:
+  explicit Writer(Encoding encoding) : encoding_(encoding) {}
+
   std::string write(const VolumeMesh& mesh) {
     const auto& cells = mesh.cells;
     line(0, "<?xml version=\"1.0\"?>");
-    line(0, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">",
-         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+    line(0, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\"{}>",
+         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
+         encoding_ == Encoding::compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
     line(1, "<UnstructuredGrid>");
     line(2, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", cells.positions.cols(), cells.cell_count());
-    fields("PointData", mesh.point_fields);
-    fields("CellData", mesh.cell_fields);
+    attributes("PointData", static_cast<std::size_t>(cells.positions.cols()), mesh.point_fields, mesh.sets,
+               SetKind::points);
+    attributes("CellData", cells.cell_count(), mesh.cell_fields, mesh.sets, SetKind::cells);
     line(3, "<Points>");
     array("Points", 3, cells.positions.data(), static_cast<std::size_t>(cells.positions.size()));
     line(3, "</Points>");
     write_cells(cells);
     line(2, "</Piece>");
     line(1, "</UnstructuredGrid>");
-    line(1, "<AppendedData encoding=\"raw\">");
-    xml_ += "_" + appended_;
-    line(0, "");
-    line(1, "</AppendedData>");
+    if (encoding_ != Encoding::ascii) {
+      line(1, "<AppendedData encoding=\"raw\">");
+      xml_ += '_';
+      xml_ += appended_;
+      line(0, "");
+      line(1, "</AppendedData>");
+    }
     line(0, "</VTKFile>");
     return std::move(xml_);
   }
@@ -80,24 +93,67 @@ class Writer {
 
   template <class T>
   void array(std::string_view name, int components, const T* values, std::size_t count) {
-    line(4, "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>",
-         type_name<T>(), escaped(name), components, appended_.size());
-    const std::uint64_t size = count * sizeof(T);
-    const std::size_t at = appended_.size();
-    appended_.resize(at + sizeof size + size);
-    std::memcpy(appended_.data() + at, &size, sizeof size);
-    if (size > 0) std::memcpy(appended_.data() + at + sizeof size, values, size);
+    const std::string head = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"",
+                                         type_name<T>(), escaped(name), components);
+    if (encoding_ == Encoding::ascii) {
+      line(4, "{} format=\"ascii\">", head);
+      for (std::size_t i = 0; i < count; ++i) {
+        if constexpr (std::is_same_v<T, double>) {
+          append_number(xml_, values[i]);
+        } else {
+          fmt::format_to(std::back_inserter(xml_), "{}", static_cast<std::int64_t>(values[i]));
+        }
+        xml_ += (i + 1) % 12 == 0 ? '\n' : ' ';
+      }
+      line(0, "");
+      line(4, "</DataArray>");
+      return;
+    }
+    line(4, "{} format=\"appended\" offset=\"{}\"/>", head, appended_.size());
+    const std::string_view bytes(reinterpret_cast<const char*>(values), count * sizeof(T));
+    if (encoding_ == Encoding::compressed) {
+      append_compressed(bytes);
+    } else {
+      append_word(bytes.size());
+      appended_ += bytes;
+    }
+  }
+  void append_word(std::uint64_t value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    appended_.append(bytes, sizeof value);
+  }
+  // Header: number of blocks, their size, that of a last smaller one (0: none), the packed sizes.
+  void append_compressed(std::string_view bytes) {
+    const std::size_t blocks = (bytes.size() + k_block - 1) / k_block, header = appended_.size();
+    for (const std::uint64_t word : {blocks, k_block, bytes.size() % k_block}) append_word(word);
+    appended_.resize(appended_.size() + blocks * sizeof(std::uint64_t));
+    std::string packed(compressBound(k_block), '\0');
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::string_view block = bytes.substr(b * k_block, k_block);
+      uLongf size = packed.size();
+      [[maybe_unused]] const int result = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                                                    reinterpret_cast<const Bytef*>(block.data()), block.size(), 4);
+      assert(result == Z_OK);  // the buffer is large enough by compressBound
+      const std::uint64_t packed_size = size;
+      std::memcpy(appended_.data() + header + (3 + b) * sizeof packed_size, &packed_size, sizeof packed_size);
+      appended_.append(packed, 0, size);
+    }
   }
   template <class T>
   void array(std::string_view name, const std::vector<T>& values) {
     array(name, 1, values.data(), values.size());
   }
 
-  void fields(std::string_view element, const std::vector<NamedField>& list) {
-    if (list.empty()) return;
+  void attributes(std::string_view element, std::size_t items, const std::vector<NamedField>& fields,
+                  const std::vector<NamedSet>& sets, SetKind kind) {
+    const bool any_set = std::any_of(sets.begin(), sets.end(), [&](auto& set) { return set.kind == kind; });
+    if (fields.empty() && !any_set) return;
     line(3, "<{}>", element);
-    for (const NamedField& field : list)
+    for (const NamedField& field : fields)
       array(field.name, field.components, field.values.data(), field.values.size());
+    for (const NamedSet& set : sets)
+      if (set.kind == kind) array(std::string(k_set_prefix) + set.name, membership(set, items));
     line(3, "</{}>", element);
   }
 
@@ -134,13 +190,14 @@ class Writer {
     line(3, "</Cells>");
   }
 
+  Encoding encoding_;
   std::string xml_, appended_;
 };
 
 }  // namespace
 
-std::string vtu_bytes(const VolumeMesh& mesh) {
-  return Writer().write(mesh);
+std::string vtu_bytes(const VolumeMesh& mesh, const WriteOptions& options) {
+  return Writer(options.encoding).write(mesh);
 }
 
 }  // namespace argil::io

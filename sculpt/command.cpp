@@ -92,6 +92,7 @@ std::string signature(const Parameter& parameter) {
                                  : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
                                                        : upper);
   }
+  if (parameter.list) value += " …";
   if (parameter.flag)
     value = parameter.name;
   else if (!parameter.positional)
@@ -112,6 +113,14 @@ Eigen::Vector3d Arguments::vector(const std::string& name) const {
 
 Eigen::Vector3d Arguments::vector(const std::string& name, const Eigen::Vector3d& otherwise) const {
   return has(name) ? vector(name) : otherwise;
+}
+
+std::vector<Eigen::Vector3d> Arguments::points(const std::string& name) const {
+  std::vector<Eigen::Vector3d> result;
+  const auto& numbers = values_.at(name).numbers;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    result.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return result;
 }
 
 std::string Arguments::word(const std::string& name, const std::string& otherwise) const {
@@ -188,11 +197,17 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
                          parameter->name));
       i = tokens.size();
     } else if (!parameter->flag) {
-      for (int k = 0; k < parameter->count; ++k) {
+      const auto goes_on = [&](int k) {
+        return k < parameter->count || k % parameter->count != 0 ||
+               (parameter->list && i < tokens.size() && tokens[i].kind == io::TokenKind::number);
+      };
+      for (int k = 0; goes_on(k); ++k) {
         if (i >= tokens.size())
           fail_at_end(line, fmt::format("{}: {} wants {}, the line ends", command.name, parameter->name,
-                                        parameter->count == 1 ? std::string(noun(parameter->type))
-                                                              : fmt::format("{} values", parameter->count)));
+                                        parameter->count == 1
+                                            ? std::string(noun(parameter->type))
+                                            : fmt::format("{}{} values", parameter->list ? "groups of " : "",
+                                                          parameter->count)));
         if (k == 0) argument.at = tokens[i];
         take_value(command, *parameter, line, tokens[i++], argument);
       }
@@ -206,16 +221,42 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
   return arguments;
 }
 
+namespace {
+
+struct Group {
+  const char* title;
+  std::vector<std::vector<Command> (*)()> sources;
+};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all{
+      {"Beginning", {&base_commands, &file_commands}},
+      {"Choosing", {&selection_commands}},
+      {"Growing and removing", {&topology_commands}},
+      {"Joining", {&joining_commands}},
+      {"Splitting", {&splitting_commands}},
+      {"Shaping", {&transform_commands, &sharpen_commands}},
+      {"Refining", {&level_commands}},
+      {"Material", {&material_commands}},
+      {"Physics", {&simulation_commands}},
+      {"Force tools", {&tool_commands}},
+      {"History", {&history_commands}},
+      {"Measuring, saving, pictures", {&output_commands}},
+  };
+  return all;
+}
+
+}  // namespace
+
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table = [] {
     std::vector<Command> all;
-    for (auto* group :
-         {&base_commands, &file_commands, &level_commands, &topology_commands, &joining_commands,
-          &splitting_commands, &sharpen_commands, &transform_commands, &selection_commands, &material_commands,
-          &simulation_commands, &tool_commands, &history_commands, &output_commands}) {
-      auto commands = (*group)();
-      std::move(commands.begin(), commands.end(), std::back_inserter(all));
-    }
+    for (const Group& group : groups())
+      for (const auto& source : group.sources)
+        for (Command& command : source()) {
+          command.group = group.title;
+          all.push_back(std::move(command));
+        }
     std::sort(all.begin(), all.end(), [](const Command& a, const Command& b) { return a.name < b.name; });
     return all;
   }();
@@ -242,18 +283,51 @@ std::string usage(const Command& command) {
   return line;
 }
 
+namespace {
+
+std::string note_on(const Parameter& parameter) {
+  std::string note = parameter.help;
+  if (!parameter.unit.empty()) note += " [" + parameter.unit + "]";
+  if (parameter.low > -1e300 && parameter.high < 1e300)
+    note += fmt::format(" ({:g} … {:g})", parameter.low, parameter.high);
+  else if (parameter.low > -1e300)
+    note += fmt::format(" (at least {:g})", parameter.low);
+  return note;
+}
+
+}  // namespace
+
 std::string help_text(const Command& command) {
   std::string text = fmt::format("{}\n\n  {}\n\n", command.summary, usage(command));
-  for (const Parameter& parameter : command.parameters) {
-    std::string note = parameter.help;
-    if (!parameter.unit.empty()) note += " [" + parameter.unit + "]";
-    if (parameter.low > -1e300 && parameter.high < 1e300)
-      note += fmt::format(" ({:g} … {:g})", parameter.low, parameter.high);
-    else if (parameter.low > -1e300)
-      note += fmt::format(" (at least {:g})", parameter.low);
-    text += fmt::format("  {:<14} {}\n", parameter.name, note);
+  for (const Parameter& parameter : command.parameters)
+    text += fmt::format("  {:<14} {}\n", parameter.name, note_on(parameter));
+  text += "\nExample:\n";
+  for (const std::string& line : command.before) text += fmt::format("  {}\n", line);
+  return text + fmt::format("  {}\n", command.example);
+}
+
+std::string commands_document() {
+  std::string text =
+      "# Commands of a session\n\n"
+      "Written by `argil help --document` from the table that runs them; a test runs every example. `argil help "
+      "COMMAND` "
+      "prints one\nof these. Lengths are in metres, time in seconds, mass in kilograms, angles in degrees.\n";
+  for (const Group& group : groups()) {
+    text += fmt::format("\n## {}\n", group.title);
+    for (const Command& command : command_table()) {
+      if (command.group != group.title) continue;
+      text += fmt::format("\n### {}\n\n{}\n\n    {}\n", command.name, command.summary, usage(command));
+      if (!command.parameters.empty()) text += "\n| argument | meaning |\n|---|---|\n";
+      for (const Parameter& parameter : command.parameters) {
+        std::string note = note_on(parameter);
+        for (std::size_t at = 0; (at = note.find('|', at)) != std::string::npos; at += 2) note.insert(at, "\\");
+        text += fmt::format("| `{}` | {} |\n", parameter.name, note);
+      }
+      text += "\nExample:\n\n";
+      for (const std::string& line : command.before) text += fmt::format("    {}\n", line);
+      text += fmt::format("    {}\n", command.example);
+    }
   }
-  text += fmt::format("\nExample:\n  {}\n", command.example);
   return text;
 }
 

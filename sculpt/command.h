@@ -32,6 +32,7 @@ struct Parameter {
   double low = -1e300, high = 1e300;   // allowed range of numbers
   std::vector<std::string> choices{};  // allowed words; empty: any
   bool flag = false;                   // a name alone
+  bool list = false;                   // any number of times `count` values (named numbers only)
 };
 
 /// One bound argument.
@@ -54,6 +55,7 @@ class Arguments {
   std::string word(const std::string& name, const std::string& otherwise) const;
   const Expression* expression(const std::string& name) const;
   const std::vector<double>& numbers(const std::string& name) const { return values_.at(name).numbers; }
+  std::vector<Eigen::Vector3d> points(const std::string& name) const;
   const Argument& at(const std::string& name) const { return values_.at(name); }
   void set(const std::string& name, Argument value) { values_[name] = std::move(value); }
 
@@ -69,6 +71,7 @@ enum class Effect {
 
 struct Command {
   std::string name{};
+  std::string group{};  // its heading in the document
   std::string summary{};
   std::vector<Parameter> parameters{};
   std::string example{};
@@ -89,6 +92,8 @@ struct Command {
 /// "extrude DISTANCE [steps N] …", and the full help text.
 [[nodiscard]] std::string usage(const Command& command);
 [[nodiscard]] std::string help_text(const Command& command);
+/// docs/commands.md: every command under the heading of its group, with arguments, and an example that runs.
+[[nodiscard]] std::string commands_document();
 /// A line for each command.
 [[nodiscard]] std::string command_overview();
 

@@ -65,6 +65,7 @@ struct Document::Derived {
   std::shared_ptr<const Fields> fields;
   fem::Space space = fem::Space::standard;
   int split = -1;
+  std::uint64_t columns_stamp = 0;
   std::unique_ptr<fem::Discretization> discretization;
   std::unique_ptr<fem::ShownElements> shown_elements;
 
@@ -118,8 +119,8 @@ const subdiv::Refinement& Document::refinement() const {
 const fem::Discretization& Document::discretization() const {
   Derived& d = *derived_;
   const subdiv::Refinement& refined = refinement();
-  const bool same_shape =
-      d.discretization && d.rest == state_.rest && d.space == state_.space && d.split == state_.split;
+  const bool same_shape = d.discretization && d.rest == state_.rest && d.columns_stamp == state_.columns_stamp &&
+                          d.space == state_.space && d.split == state_.split;
   if (same_shape && d.fields == state_.fields) return *d.discretization;
   const fem::NodalFields nodal = nodal_fields(*state_.fields);
   d.integrator.reset();
@@ -133,6 +134,7 @@ const fem::Discretization& Document::discretization() const {
         fem::discretize(refined, rest(), nodal, {.space = state_.space, .split = state_.split}));
   }
   d.rest = state_.rest;
+  d.columns_stamp = state_.columns_stamp;
   d.fields = state_.fields;
   d.space = state_.space;
   d.split = state_.split;

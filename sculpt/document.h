@@ -76,6 +76,8 @@ struct Tool {
 
 /// Everything that undo restores, but for the topology itself.
 struct State {
+  /// Tells states apart that share an array, since a topology edit adds to it in place (column_changes.h).
+  std::uint64_t columns_stamp = 0;
   std::shared_ptr<subdiv::Solid> solid;          // edited in place; replaced by `new` and `open`
   std::shared_ptr<const Eigen::Matrix3Xd> rest;  // P, 3 x vertex capacity [m]
   std::shared_ptr<const fem::BodyState> motion;  // p, v, history, time

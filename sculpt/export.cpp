@@ -9,8 +9,7 @@
 namespace argil::sculpt {
 
 bool is_surface_format(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  return ending == ".obj" || ending == ".ply" || ending == ".stl";
+  return io::is_surface_format(path);
 }
 
 io::SurfaceMesh surface_mesh(const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions) {

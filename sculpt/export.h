@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/surface.h"
 #include "io/volume_mesh.h"
 #include "sculpt/document.h"
 

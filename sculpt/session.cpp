@@ -20,6 +20,8 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
                             options_.out.string(), failure.message()));
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
+    // What an earlier program left here may be all that there is of someone's work.
+    std::filesystem::rename(journal_path_, options_.out / "journal.previous.argil", failure);
     journal_.open(journal_path_, std::ios::trunc);
     if (!journal_)
       throw Error(ErrorCode::bad_input,
@@ -108,10 +110,15 @@ std::string Session::place() const {
   return current_.tokens.empty() ? std::string{} : io::place_of(current_, current_.tokens[0]);
 }
 
-void Session::change(State next, subdiv::Delta delta) {
-  done_.push_back({start_, next, std::move(delta)});
+void Session::change(State next, subdiv::Delta delta, ColumnChanges columns) {
+  if (!columns.empty()) {
+    apply(next, columns);
+    next.columns_stamp = ++columns_stamp_;
+  }
+  done_.push_back({start_, next, std::move(delta), std::move(columns)});
   undone_.clear();
   tool_force_.reset();
+  start_ = next;
   document_.assign(std::move(next));
 }
 
@@ -124,6 +131,7 @@ void Session::undo(long count) {
   for (long i = 0; i < count; ++i) {
     Done& last = done_.back();
     if (!last.delta.empty()) subdiv::undo(*last.after.solid, last.delta);
+    if (!last.columns.empty()) take_back(last.after, last.columns);
     document_.assign(last.before);
     undone_.push_back(std::move(last));
     done_.pop_back();
@@ -139,6 +147,7 @@ void Session::redo(long count) {
   for (long i = 0; i < count; ++i) {
     Done& next = undone_.back();
     if (!next.delta.empty()) subdiv::redo(*next.after.solid, next.delta);
+    if (!next.columns.empty()) apply(next.after, next.columns);
     document_.assign(next.after);
     done_.push_back(std::move(next));
     undone_.pop_back();

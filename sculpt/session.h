@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sculpt/column_changes.h"
 #include "sculpt/command.h"
 #include "sculpt/document.h"
 #include "sculpt/renderer.h"
@@ -73,8 +74,9 @@ class Session {
   const SessionOptions& options() const { return options_; }
 
   // For commands.
-  /// Takes the next state; `delta` is of a topology edit that has been applied.
-  void change(State next, subdiv::Delta delta = {});
+  /// Takes the next state; `delta` is of a topology edit that has been applied, `columns` what is to be applied to
+  /// the arrays that the next state shares with the present one.
+  void change(State next, subdiv::Delta delta = {}, ColumnChanges columns = {});
   void undo(long count);
   void redo(long count);
   std::size_t undo_depth() const { return done_.size(); }
@@ -107,6 +109,7 @@ class Session {
   struct Done {
     State before, after;
     subdiv::Delta delta;
+    ColumnChanges columns;
   };
   void trace(const std::string& what);
   void journal(const std::string& line);
@@ -124,6 +127,7 @@ class Session {
   std::filesystem::path journal_path_;
   std::ofstream journal_, trace_;
   std::size_t lines_ = 0, line_count_ = 0;
+  std::uint64_t columns_stamp_ = 0;
 };
 
 }  // namespace argil::sculpt

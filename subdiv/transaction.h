@@ -53,6 +53,8 @@ class Transaction {
   Transaction& operator=(const Transaction&) = delete;
 
   const Solid& solid() const { return *solid_; }
+  /// Whether nothing has been changed yet.
+  bool empty() const { return delta_.empty(); }
 
   VertexId add_vertex();
   /// The edge between two vertices, added if there is none.

@@ -192,35 +192,6 @@ void edit_topology(
   session.change(std::move(next), transaction.commit());
 }
 
-void edit_solid(Session& session, const std::function<Edit(Transaction&, const Eigen::Matrix3Xd&)>& edit) {
-  Edit made;
-  edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd& rest, Eigen::Matrix3Xd& present,
-                             Selection& selected) {
-    made = edit(transaction, rest);
-    const Eigen::Matrix3Xd old_rest = rest, old_present = present;
-    const auto vertices = static_cast<Eigen::Index>(transaction.solid().vertex_capacity());
-    rest.conservativeResize(3, vertices);
-    present.conservativeResize(3, vertices);
-    for (const PlacedVertex& placed : made.placed) {
-      Eigen::Vector3d at = Eigen::Vector3d::Zero(), at_present = at;
-      for (const auto& [source, weight] : placed.sources) {
-        at += weight * old_rest.col(static_cast<Eigen::Index>(source.index()));
-        at_present += weight * old_present.col(static_cast<Eigen::Index>(source.index()));
-      }
-      rest.col(static_cast<Eigen::Index>(placed.vertex.index())) = placed.linear * at + placed.offset;
-      present.col(static_cast<Eigen::Index>(placed.vertex.index())) = placed.linear * at_present + placed.offset;
-    }
-    const auto choose = [&](ElementType type, const auto& ids) {
-      if (ids.empty()) return false;
-      selected = {type, {}};
-      for (const auto id : ids) selected.ids.push_back(id.value);
-      return true;
-    };
-    (void)(choose(ElementType::faces, made.next_faces) || choose(ElementType::cells, made.next_cells) ||
-           choose(ElementType::edges, made.next_edges) || choose(ElementType::vertices, made.next_vertices));
-  });
-}
-
 void check_discretization(const Session& session) {
   (void)session.document().discretization();
 }

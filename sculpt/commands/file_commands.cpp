@@ -50,6 +50,7 @@ std::vector<Command> file_commands() {
                        .positional = true,
                        .required = true}},
        .example = "open chair.vtk",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "save chair.vtk"},
        .run = open},
   };
 }

@@ -117,6 +117,7 @@ std::vector<Command> material_commands() {
                        .required = true},
                       where},
        .example = "set density 300 + 100*z where z < 0.5",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .run = set_field},
       {.name = "paint",
        .summary =
@@ -131,7 +132,8 @@ std::vector<Command> material_commands() {
                        .help = "towards the rim of the brush",
                        .choices = {"smooth", "linear", "constant"}},
                       where},
-       .example = "paint young_modulus scale 10 where z < 0",
+       .example = "paint young_modulus scale 10 where x < 0.2",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .run = paint},
       {.name = "model",
        .summary = "The force model: corotational (default), or linear elasticity in fixed axes, its reference for "
@@ -143,6 +145,7 @@ std::vector<Command> material_commands() {
                        .required = true,
                        .choices = {"corotational", "linear"}}},
        .example = "model linear",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .run = set_model},
   };
 }

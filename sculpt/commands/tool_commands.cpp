@@ -107,6 +107,7 @@ std::vector<Command> tool_commands() {
                        .help = "towards the rim",
                        .choices = {"smooth", "linear", "constant"}}},
        .example = "tool pull radius 0.15 strength 40",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = set_tool},
       {.name = "stroke",
        .summary = "Moves the device along a line with the tool held on; the simulation advances with it.",
@@ -143,7 +144,9 @@ std::vector<Command> tool_commands() {
                        .type = ArgumentType::word,
                        .help = "scripted: follows the line exactly; hand: a simulated hand that feels the force",
                        .choices = {"scripted", "hand"}}},
-       .example = "stroke from 0.3 0.3 0.1 to 0.3 0.3 -0.05 ticks 500",
+       .example = "stroke from 0.3 0.3 0.1 to 0.3 0.3 -0.05 ticks 100",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "pin where x < 0.01",
+                  "tool pull radius 0.15 strength 40"},
        .run = stroke},
   };
 }

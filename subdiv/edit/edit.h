@@ -14,8 +14,8 @@ namespace argil::subdiv {
 /// the edit. Fields take the blend alone. Sources were there before the edit (they may be gone after it); the weights sum
 /// to 1.
 struct PlacedVertex {
-  VertexId vertex;
-  std::vector<std::pair<VertexId, double>> sources;
+  VertexId vertex{};
+  std::vector<std::pair<VertexId, double>> sources{};
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m]
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
 };

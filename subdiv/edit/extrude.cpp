@@ -18,25 +18,6 @@ std::string where(FaceId f) {
   return fmt::format("face {}", f.value);
 }
 
-void check_faces(const Solid& solid, std::span<const FaceId> faces, int steps) {
-  if (steps < 1) throw Error(ErrorCode::bad_input, fmt::format("expected at least 1 step, found {}", steps));
-  if (faces.empty())
-    throw Error(ErrorCode::bad_input, "expected boundary faces to extrude, found none; select some first");
-  for (const FaceId f : faces) {
-    if (!solid.is_live(f))
-      throw Error(ErrorCode::not_found, fmt::format("there is no face {}; select faces again", f.value), where(f));
-    if (!solid.is_boundary(f))
-      throw Error(ErrorCode::bad_topology,
-                  fmt::format("face {} is not on the boundary, and only boundary faces can be extruded", f.value),
-                  where(f));
-  }
-  std::vector<FaceId> sorted(faces.begin(), faces.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    throw Error(ErrorCode::bad_input, fmt::format("face {} is given twice", twice->value), where(*twice));
-}
-
 // A wall has one side for each direction in which faces of the region run along its edge.
 void check_walls(const Solid& solid, std::span<const FaceId> faces) {
   std::vector<std::pair<EdgeId, bool>> sides;
@@ -55,14 +36,6 @@ void check_walls(const Solid& solid, std::span<const FaceId> faces) {
                           "would overlap; extrude them one after the other",
                           ends[0].value, ends[1].value),
               fmt::format("edge {}", twice->first.value));
-}
-
-// How sharp an edge is that a vertex of the boundary leaves behind as it moves.
-double trail_sharpness(const Solid& solid, VertexId v) {
-  std::vector<double> sharp;
-  solid.for_each_edge(v, [&](EdgeId e) { sharp.push_back(solid.edge_sharpness(e)); });
-  std::sort(sharp.begin(), sharp.end(), std::greater<>());
-  return std::max(solid.vertex_sharpness(v), sharp.size() < 3 ? 0.0 : sharp[2]);
 }
 
 class Extruder {
@@ -140,9 +113,39 @@ class Extruder {
 
 }  // namespace
 
+void check_boundary_faces(const Solid& solid, std::span<const FaceId> faces) {
+  if (faces.empty()) throw Error(ErrorCode::bad_input, "expected boundary faces, found none; select some first");
+  for (const FaceId f : faces) {
+    if (!solid.is_live(f))
+      throw Error(ErrorCode::not_found, fmt::format("there is no face {}; select faces again", f.value), where(f));
+    if (!solid.is_boundary(f))
+      throw Error(
+          ErrorCode::bad_topology,
+          fmt::format("face {} is not on the boundary, and only boundary faces can grow; leave it out", f.value),
+          where(f));
+  }
+  std::vector<FaceId> sorted(faces.begin(), faces.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end())
+    throw Error(ErrorCode::bad_input, fmt::format("face {} is given twice", twice->value), where(*twice));
+}
+
+void check_extrusion(const Solid& solid, std::span<const FaceId> faces, int steps) {
+  if (steps < 1) throw Error(ErrorCode::bad_input, fmt::format("expected at least 1 step, found {}", steps));
+  check_boundary_faces(solid, faces);
+  check_walls(solid, faces);
+}
+
+double trail_sharpness(const Solid& solid, VertexId v) {
+  std::vector<double> sharp;
+  solid.for_each_edge(v, [&](EdgeId e) { sharp.push_back(solid.edge_sharpness(e)); });
+  std::sort(sharp.begin(), sharp.end(), std::greater<>());
+  return std::max(solid.vertex_sharpness(v), sharp.size() < 3 ? 0.0 : sharp[2]);
+}
+
 Extrusion extrude(Transaction& transaction, std::span<const FaceId> faces, int steps) {
-  check_faces(transaction.solid(), faces, steps);
-  check_walls(transaction.solid(), faces);
+  check_extrusion(transaction.solid(), faces, steps);
   return Extruder(transaction, faces).run(steps);
 }
 

@@ -30,4 +30,10 @@ struct Extrusion {
 /// non-manifold boundary so that their walls would lie on the same side of one another. Cost O(new corners).
 [[nodiscard]] Extrusion extrude(Transaction& transaction, std::span<const FaceId> faces, int steps);
 
+/// Throws as `extrude` would; of the steps and walls the second says nothing.
+void check_extrusion(const Solid& solid, std::span<const FaceId> faces, int steps);
+void check_boundary_faces(const Solid& solid, std::span<const FaceId> faces);
+/// How sharp the edge is that a vertex of the boundary leaves behind as it moves: a corner's, or 0.
+[[nodiscard]] double trail_sharpness(const Solid& solid, VertexId v);
+
 }  // namespace argil::subdiv

@@ -11,18 +11,18 @@
 namespace argil::subdiv {
 
 struct NewCell {
-  std::vector<std::vector<VertexId>> loops;  // each counter-clockwise from outside
-  CellId source;                             // invalid: of none
+  std::vector<std::vector<VertexId>> loops{};  // each counter-clockwise from outside
+  CellId source{};                             // invalid: of none
 };
 
 struct Rewrite {
-  std::vector<CellId> removed;
-  std::vector<NewCell> added;
-  std::map<VertexId, VertexId> replaced;              // gone → kept
-  std::map<EdgeId, std::vector<VertexId>> cut_edges;  // vertices on an old edge, from its first end to its second
+  std::vector<CellId> removed{};
+  std::vector<NewCell> added{};
+  std::map<VertexId, VertexId> replaced{};              // gone → kept
+  std::map<EdgeId, std::vector<VertexId>> cut_edges{};  // vertices on an old edge, from its first end to its second
   std::vector<std::pair<std::vector<VertexId>, FaceId>>
-      cut_faces;              // a loop of a new face, and what it is a part of
-  std::vector<FaceId> glued;  // faces of cells that stay: swept, and what they were passes on, like those removed
+      cut_faces{};              // a loop of a new face, and what it is a part of
+  std::vector<FaceId> glued{};  // faces of cells that stay: swept, and what they were passes on, like those removed
 };
 
 /// Removes cells, adds cells, and sweeps what nothing holds any more. An old edge (face) whose vertices are

@@ -39,6 +39,15 @@ TEST(Image, DamagedPicturesAreRefused) {
   write_file(scratch("bomb.png"), bomb);
   EXPECT_THROW((void)read_png(scratch("bomb.png")), Error);
   EXPECT_THROW((void)read_png(scratch("none.png")), Error);
+  // A part that counts a gigabyte.
+  std::string boast = whole;
+  boast[33] = 0x3f;
+  try {
+    (void)read_png(boast, "boast");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "boast: byte 33");
+  }
 }
 
 }  // namespace

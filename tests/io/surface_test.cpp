@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "io/file_bytes.h"
-#include "io/volume_mesh.h"
+#include "io/surface.h"
 #include "subdiv/error.h"
 
 namespace argil::io {

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,14 +62,16 @@ nlohmann::json read_json(const fs::path& path) {
   return nlohmann::json::parse(read_bytes(path));
 }
 
-Finished run_program(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& folder) {
-  // Files, not pipes, so that a program that prints much on both never waits for us.
-  const TemporaryFolder captured;
+namespace {
+
+// Files, not pipes, so that a program that prints much on both never waits for us.
+pid_t start(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& folder,
+            const fs::path& out, const fs::path& err) {
   posix_spawn_file_actions_t actions;
   check(posix_spawn_file_actions_init(&actions), "posix_spawn");
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, (captured / "out").c_str(), O_CREAT | O_WRONLY, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, (captured / "err").c_str(), O_CREAT | O_WRONLY, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -78,12 +82,43 @@ Finished run_program(const fs::path& program, const std::vector<std::string>& ar
   const int failure = posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   check(failure, program.c_str());
+  return child;
+}
+
+int end_of(pid_t child) {
   int ended = 0;
   while (waitpid(child, &ended, 0) < 0)
     if (errno != EINTR) check(errno, "waitpid");
+  return ended;
+}
+
+}  // namespace
+
+Finished run_program(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& folder) {
+  const TemporaryFolder captured;
+  const int ended = end_of(start(program, arguments, folder, captured / "out", captured / "err"));
   return {.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended),
           .out = read_bytes(captured / "out"),
           .err = read_bytes(captured / "err")};
+}
+
+bool run_and_kill(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& folder,
+                  const fs::path& file, std::size_t bytes, unsigned turns) {
+  const TemporaryFolder captured;
+  const pid_t child = start(program, arguments, folder, captured / "out", captured / "err");
+  std::error_code none;
+  int ended = 0;
+  while (waitpid(child, &ended, WNOHANG) == 0) {
+    const auto size = fs::file_size(file, none);
+    if (!none && size >= bytes) {
+      for (unsigned i = 0; i < turns; ++i) asm volatile("");
+      kill(child, SIGKILL);
+      ended = end_of(child);
+      return WIFSIGNALED(ended);
+    }
+    sched_yield();
+  }
+  return false;
 }
 
 Finished run_argil(const std::vector<std::string>& arguments, const fs::path& folder) {

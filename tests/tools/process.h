@@ -39,6 +39,11 @@ struct Finished {
 /// Runs a program to its end in `folder`, its input closed.
 Finished run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                      const std::filesystem::path& folder);
+/// Starts it likewise and kills it (SIGKILL) as soon as `file` holds `bytes` bytes and `turns` turns of a loop have
+/// passed, or lets it end. Returns whether it was killed.
+bool run_and_kill(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                  const std::filesystem::path& folder, const std::filesystem::path& file, std::size_t bytes,
+                  unsigned turns);
 /// Runs the argil that was built with these tests.
 Finished run_argil(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 

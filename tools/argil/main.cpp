@@ -56,6 +56,8 @@ int run(int argc, char** argv) {
       app.add_subcommand("replay", "Runs a session file and writes its results and summary.json");
   replay_app->add_option("session", replaying.session, "the session file")->required();
   replay_app->add_option("--out", replaying.out, "folder for results (default: out/<session name>)");
+  replay_app->add_option("--files", replaying.files,
+                         "folder beneath which names in the session are read (default: the session's own)");
   replay_app->add_option("--threads", replaying.threads, "threads; the results are the same bits for any number")
       ->check(CLI::Range(1, 1024));
   replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")
@@ -76,6 +78,18 @@ int run(int argc, char** argv) {
       "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
       "threads, measures, expectations.");
   replay_app->callback([&] { status = replay(replaying); });
+
+  ReplayArguments restoring;
+  restoring.journal = true;
+  CLI::App* restore_app = app.add_subcommand(
+      "restore", "Replays the journal of a program that was killed: every command that it had finished");
+  restore_app->add_option("journal", restoring.session, "journal.argil in the folder of its results")->required();
+  restore_app->add_option("--files", restoring.files, "the folder of the session that was running");
+  restore_app->add_option("--out", restoring.out, "folder for results (default: out/journal)");
+  restore_app->add_flag("--json", restoring.json, "print the summary to standard output");
+  restore_app->add_flag("--quiet", restoring.quiet, "no progress, no messages");
+  restore_app->add_flag("!--no-pictures", restoring.pictures, "skip `render`");
+  restore_app->callback([&] { status = replay(restoring); });
 
   std::filesystem::path first, second;
   bool json = false, limit = false;
@@ -130,7 +144,9 @@ int run(int argc, char** argv) {
 
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
-  help_app->callback([&] { status = help(command); });
+  bool document = false;
+  help_app->add_flag("--document", document, "docs/commands.md, written from the table of commands");
+  help_app->callback([&] { status = document ? help_document() : help(command); });
 
   const std::string first_word = argc > 1 ? argv[1] : "";
   app.failure_message(

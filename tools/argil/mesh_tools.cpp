@@ -210,6 +210,11 @@ int render(const RenderArguments& arguments) {
   return k_well;
 }
 
+int help_document() {
+  fmt::print("{}", sculpt::commands_document());
+  return 0;
+}
+
 int help(const std::string& command) {
   if (command.empty()) {
     fmt::print("Commands of a session, one a line; `argil help COMMAND` explains one.\n\n{}",

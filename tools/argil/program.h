@@ -15,11 +15,13 @@ inline constexpr int k_well = 0, k_expectation_failed = 1, k_bad_input = 2, k_ow
 
 struct ReplayArguments {
   std::filesystem::path session, out, hash_trace;
-  int threads = 0;  // 0: all
+  std::filesystem::path files;  // names in the session are read beneath it; empty: beneath the session's folder
+  int threads = 0;              // 0: all
   long until = -1;
   std::vector<std::string> overrides;  // "space=cubic"
   sculpt::Limits limits;
   bool json = false, quiet = false, pictures = true;
+  bool journal = false;  // of a program that was killed: its last line may be half written, and is left out then
 };
 int replay(const ReplayArguments& arguments);
 
@@ -41,5 +43,6 @@ struct RenderArguments {
 int render(const RenderArguments& arguments);
 
 int help(const std::string& command);
+int help_document();
 
 }  // namespace argil::tools

@@ -108,7 +108,13 @@ void check_apart(const std::filesystem::path& session, const std::filesystem::pa
 }  // namespace
 
 int replay(const ReplayArguments& arguments) {
-  const std::string text = read_text(arguments.session);
+  std::string text = read_text(arguments.session);
+  if (arguments.journal && !text.empty() && text.back() != '\n') {
+    const std::size_t begin = text.rfind('\n') + 1;
+    std::fprintf(stderr, "argil: the last line was not written to its end and is left out: %s\n",
+                 text.substr(begin).c_str());
+    text.resize(begin);
+  }
   const auto overrides = parsed_overrides(arguments.overrides);
   check_used(overrides, io::parse_session(text, arguments.session.string()));
   const int threads =
@@ -120,7 +126,7 @@ int replay(const ReplayArguments& arguments) {
   if (arguments.pictures) renderer = view::make_offscreen_renderer();
 
   sculpt::SessionOptions options;
-  options.read_root = arguments.session.parent_path();
+  options.read_root = arguments.files.empty() ? arguments.session.parent_path() : arguments.files;
   options.out = arguments.out.empty() ? std::filesystem::path("out") / arguments.session.stem() : arguments.out;
   options.hash_trace = arguments.hash_trace;
   options.overrides = overrides;
