@@ -27,9 +27,10 @@ Plane normalized(Plane plane) {
   return plane;
 }
 
+// Named twice, the source takes the image into its sets and pins.
 PlacedVertex placed(VertexId vertex, VertexId source, const Plane& plane, double times) {
   return {vertex,
-          {{source, 1.0}},
+          {{source, 0.5}, {source, 0.5}},
           times * plane.normal.dot(plane.point) * plane.normal,
           Eigen::Matrix3d::Identity() - times * plane.normal * plane.normal.transpose()};
 }
