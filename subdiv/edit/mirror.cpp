@@ -18,6 +18,8 @@ namespace {
 
 // Less than this is no fold.
 constexpr double k_fold = std::numbers::pi / 6;
+// A vertex so near the plane [m] is on neither side, even if it is not shared.
+constexpr double k_on_plane = 1e-9;
 
 Plane normalized(Plane plane) {
   const double length = plane.normal.norm();
@@ -67,9 +69,8 @@ class Mirror {
       bool up = false, down = false;
       for (const VertexId v : cell_vertices(solid_, c)) {
         const double h = height(v);
-        if (std::abs(h) <= weld_) {
-          shared_.emplace(v, v);
-        } else {
+        if (std::abs(h) <= weld_) shared_.emplace(v, v);
+        if (std::abs(h) > std::max(weld_, k_on_plane)) {
           (h > 0 ? up : down) = true;
         }
       }

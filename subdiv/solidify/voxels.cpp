@@ -1,5 +1,6 @@
 #include "subdiv/solidify/voxels.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -137,8 +138,10 @@ std::size_t make_manifold(Voxels& voxels) {
       const auto c = cube(bit);
       if (voxels.is_filled(c[0], c[1], c[2])) block |= 1U << bit;
     }
-    if (connected(block) && connected(~block & 0xffU)) continue;
+    const auto sound = [](unsigned cubes) { return connected(cubes) && connected(~cubes & 0xffU); };
+    if (sound(block)) continue;
     std::array<int, 3> best{-1, -1, -1};
+    constexpr int k_more_than_any = k_samples * k_samples * k_samples + 1;
     int fullest = -1;
     for (unsigned bit = 0; bit < 8; ++bit) {
       const auto c = cube(bit);
@@ -146,7 +149,8 @@ std::size_t make_manifold(Voxels& voxels) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         in_grid = in_grid && c[axis] >= 0 && c[axis] < voxels.counts[axis];
       if (!in_grid) continue;
-      const int inside = voxels.samples_inside[voxels.number(c[0], c[1], c[2])];
+      const bool enough = sound(block | 1U << bit);
+      const int inside = voxels.samples_inside[voxels.number(c[0], c[1], c[2])] + (enough ? k_more_than_any : 0);
       if (inside > fullest) {
         fullest = inside;
         best = c;

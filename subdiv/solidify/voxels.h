@@ -35,7 +35,8 @@ struct Voxels {
 /// Cost O(triangles · lines across each + samples).
 void fill(Voxels& voxels, const ClosedSurface& surface, const std::function<void(double)>& progress);
 /// Fills more cubes until the boundary of what is filled is a manifold: no two cubes touch in an edge or a vertex
-/// alone, inside or outside. Of the cubes at a fault the fullest goes first. Returns how many.
+/// alone, inside or outside. Of the cubes at a fault one that mends it goes first, then the fullest. Returns how
+/// many.
 std::size_t make_manifold(Voxels& voxels);
 
 }  // namespace argil::subdiv

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sessions.h"
+#include "subdiv/boundary.h"
 #include "subdiv/radial_edge.h"
 
 namespace argil::sculpt {
@@ -93,12 +94,11 @@ TEST(ShapeCommands, TransformScalesThenTurns) {
 
 TEST(ShapeCommands, ImagesTakeFieldsSetsAndPins) {
   TestSession test({"new box 2 2 2", "levels 1", "paint young_modulus scale 3 where x > 0.9",
-                    "select cells where x > 0.5", "select cells where x > 0.5 as right", "pin where x > 0.9",
+                    "select cells as right where x > 0.5", "pin where x > 0.9",
                     "mirror normal 1 0 0 where x > -1"});
   EXPECT_EQ(test.state().solid->cell_count(), 16u);
   EXPECT_EQ(test.state().sets->at("right").ids.size(), 8u);
   EXPECT_EQ(test.state().pins->control_points.size(), 18u);
-  test.run({"expect volume " + std::to_string(test.measure("volume"))});
   const Eigen::Matrix3Xd rest = test.document().rest();
   EXPECT_EQ(rest.row(0).minCoeff(), -1);
 }
@@ -160,7 +160,7 @@ TEST(ShapeCommands, SolidifyFillsASavedSurface) {
   const double volume = test.measure("volume");
   test.run({"solidify ring.obj cells 14"});
   EXPECT_NEAR(test.measure("volume"), volume, 0.15 * volume);
-  EXPECT_EQ(test.measure("genus"), 1);
+  EXPECT_EQ(subdiv::boundary_surface(*test.state().solid).genus, 1);
   ASSERT_FALSE(printed.empty());
   test.run({"levels 1"});
   EXPECT_THAT(test.fault_of("solidify ring.obj cells 4 size 1").what(), HasSubstr("leave one out"));
