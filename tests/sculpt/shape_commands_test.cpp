@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sessions.h"
@@ -103,6 +104,30 @@ TEST(ShapeCommands, ImagesTakeFieldsSetsAndPins) {
   EXPECT_EQ(rest.row(0).minCoeff(), -1);
 }
 
+// Whatever the level, a copy has the values of its source, node by node.
+TEST(ShapeCommands, CopiesHaveTheFieldsOfTheirSources) {
+  for (const char* level : {"levels 0", "levels 2"})
+    for (const char* copy : {"duplicate by 5 0 0", "mirror normal 1 0 0"}) {
+      SCOPED_TRACE(std::string(copy) + " at " + level);
+      TestSession test({"new box 2 2 2", level, "set young_modulus 1e4 + 1e4*x*x + 3e4*y"});
+      const auto half = test.state().fields;
+      test.run({copy});
+      const Eigen::VectorXd& values = (*test.state().fields)[FieldName::young_modulus];
+      const Eigen::VectorXd& before = (*half)[FieldName::young_modulus];
+      EXPECT_EQ(values.minCoeff(), before.minCoeff());
+      EXPECT_EQ(values.maxCoeff(), before.maxCoeff());
+      std::vector<double> here(values.begin(), values.end()), there(before.begin(), before.end());
+      const auto count = [](const std::vector<double>& all, double value) {
+        return std::count(all.begin(), all.end(), value);
+      };
+      for (const double value : there) {
+        EXPECT_GT(count(here, value), 0);
+        EXPECT_LE(count(here, value), 2 * count(there, value));
+      }
+      for (const double value : here) EXPECT_GT(count(there, value), 0) << value;
+    }
+}
+
 TEST(ShapeCommands, ImagesOfABentBodyAreBentTheOtherWay) {
   TestSession test({"new box 4 1 1 size 4 1 1", "levels 0", "pin where x < 0.01", "gravity 0 0 -9.81",
                     "set young_modulus 2e4", "step 5"});
@@ -140,15 +165,20 @@ TEST(ShapeCommands, SmoothLeavesPinsAndMovesTheBodyAsItsRest) {
   EXPECT_GT((after - before).norm(), 0.01);
 }
 
+std::vector<std::uint32_t> boundary_vertices(TestSession& test) {
+  std::vector<std::uint32_t> vertices;
+  for (const subdiv::VertexId v : test.state().solid->vertices())
+    if (test.state().solid->is_boundary(v)) vertices.push_back(v.value);
+  return vertices;
+}
+
 TEST(ShapeCommands, ProjectTakesTheBoundaryToASurface) {
   TestSession test({"new box 4 4 4 size 2 2 2 at -1 -1 -1", "project ball 1.2 where x > -9"});
-  for (const subdiv::VertexId v : test.state().solid->vertices())
-    if (test.state().solid->is_boundary(v))
-      EXPECT_NEAR(test.document().rest().col(v.value).norm(), 1.2, 1e-12) << v.value;
+  for (const std::uint32_t v : boundary_vertices(test))
+    EXPECT_NEAR(test.document().rest().col(v).norm(), 1.2, 1e-12) << v;
   test.run({"new sphere radius 1 around 32 at 0 0 -1", "save ball.obj", "new box 4 4 4 size 2 2 2 at -1 -1 -1",
             "project ball.obj amount 0.5 where x > -9"});
-  for (const subdiv::VertexId v : test.state().solid->vertices())
-    if (test.state().solid->is_boundary(v)) EXPECT_LT(test.document().rest().col(v.value).norm(), 1.4);
+  for (const std::uint32_t v : boundary_vertices(test)) EXPECT_LT(test.document().rest().col(v).norm(), 1.4);
   EXPECT_THAT(test.fault_of("project").what(), HasSubstr("found neither"));
 }
 
