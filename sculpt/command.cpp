@@ -235,7 +235,7 @@ const std::vector<Group>& groups() {
       {"Growing and removing", {&topology_commands}},
       {"Joining", {&joining_commands}},
       {"Splitting", {&splitting_commands}},
-      {"Shaping", {&transform_commands, &sharpen_commands}},
+      {"Shaping", {&transform_commands, &smoothing_commands, &sharpen_commands}},
       {"Refining", {&level_commands}},
       {"Material", {&material_commands}},
       {"Physics", {&simulation_commands}},

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "subdiv/radial_edge.h"
@@ -164,8 +165,56 @@ std::vector<std::uint32_t> nodes_after_edit(const Refinement& before, const Refi
   return nodes;
 }
 
+std::vector<std::uint32_t> copied_nodes(const Refinement& after, const Edit& edit) {
+  const Solid& solid = after.levels[0];
+  std::map<VertexId, VertexId> source_of;
+  std::vector<CellId> candidates;
+  for (const PlacedVertex& placed : edit.placed) {
+    if (placed.sources.empty()) continue;
+    const VertexId source = placed.sources[0].first;
+    if (!solid.is_live(source) || !std::all_of(placed.sources.begin(), placed.sources.end(),
+                                               [&](const auto& other) { return other.first == source; }))
+      continue;
+    source_of[placed.vertex] = source;
+    if (placed.vertex == source) continue;
+    for (const CellId c : vertex_cells(solid, placed.vertex)) candidates.push_back(c);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+
+  LevelMap map{std::vector<VertexId>(solid.vertex_capacity()), std::vector<EdgeId>(solid.edge_capacity()),
+               std::vector<FaceId>(solid.face_capacity()), std::vector<CellId>(solid.cell_capacity())};
+  for (const CellId c : candidates) {
+    std::vector<VertexId> sources;
+    for (const VertexId v : cell_vertices(solid, c))
+      if (const auto found = source_of.find(v); found != source_of.end()) sources.push_back(found->second);
+    if (sources.size() != cell_vertices(solid, c).size()) continue;
+    std::sort(sources.begin(), sources.end());
+    for (const CellId original : vertex_cells(solid, sources[0])) {
+      if (original == c || cell_vertices(solid, original) != sources) continue;
+      map.cell[c.index()] = original;
+      for (const VertexId v : cell_vertices(solid, c)) map.vertex[v.index()] = source_of.at(v);
+      for (const EdgeId e : cell_edges(solid, c)) {
+        const auto& ends = solid.edge_vertices(e);
+        map.edge[e.index()] = solid.find_edge(source_of.at(ends[0]), source_of.at(ends[1])).value_or(EdgeId{});
+      }
+      for (const FaceUseId use : solid.cell_face_uses(c)) {
+        std::vector<VertexId> loop;
+        for (const VertexId v : solid.face_vertices(face_of(use))) loop.push_back(source_of.at(v));
+        map.face[face_of(use).index()] = solid.find_face(loop).value_or(FaceId{});
+      }
+      break;
+    }
+  }
+  for (int level = 1; level <= after.finest(); ++level) map = finer_map(after, after, level, map);
+  std::vector<std::uint32_t> nodes(map.vertex.size());
+  std::transform(map.vertex.begin(), map.vertex.end(), nodes.begin(), [](VertexId v) { return v.value; });
+  return nodes;
+}
+
 std::shared_ptr<const Fields> fields_after_edit(const Fields& fields, const std::vector<std::uint32_t>& node_map,
-                                                const Refinement& after) {
+                                                const Refinement& after,
+                                                const std::vector<std::uint32_t>& source_from_node) {
   const Solid& solid = after.solid();
   const std::size_t count = solid.vertex_capacity();
   std::vector<std::uint8_t> known(count, 0);
@@ -177,6 +226,13 @@ std::shared_ptr<const Fields> fields_after_edit(const Fields& fields, const std:
     for (std::size_t f = 0; f < result->values.size(); ++f)
       result->values[f][there] = fields.values[f][static_cast<Eigen::Index>(v)];
   }
+  std::vector<std::uint32_t> copied;
+  for (std::uint32_t v = 0; v < source_from_node.size(); ++v)
+    if (const std::uint32_t source = source_from_node[v]; source != k_no_node && !known[v] && known[source]) {
+      copied.push_back(v);
+      for (Eigen::VectorXd& values : result->values) values[v] = values[source];
+    }
+  for (const std::uint32_t v : copied) known[v] = 1;
   // What grew takes the mean of its known neighbours, layer by layer.
   std::vector<VertexId> unknown;
   for (const VertexId v : solid.vertices())

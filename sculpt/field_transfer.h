@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sculpt/document.h"
+#include "subdiv/edit/edit.h"
 
 namespace argil::sculpt {
 
@@ -23,9 +24,13 @@ inline constexpr std::uint32_t k_no_node = 0xffffffffU;
 /// log).
 [[nodiscard]] std::vector<std::uint32_t> nodes_after_edit(const subdiv::Refinement& before,
                                                           const subdiv::Refinement& after);
-/// What stayed keeps its value, what grew takes the mean of its known neighbours, layer by layer.
-[[nodiscard]] std::shared_ptr<const Fields> fields_after_edit(const Fields& fields,
-                                                              const std::vector<std::uint32_t>& node_map,
-                                                              const subdiv::Refinement& after);
+/// The node that each node in a copy of a cell is a copy of, else k_no_node: a cell is a copy if its vertices are
+/// placed with one source each, and these are the vertices of another. Cost O(finest level · log).
+[[nodiscard]] std::vector<std::uint32_t> copied_nodes(const subdiv::Refinement& after, const subdiv::Edit& edit);
+/// What stayed keeps its value, a copied node takes that of its source, what grew else the mean of its known
+/// neighbours, layer by layer. `source_from_node` as copied_nodes gives it, or empty.
+[[nodiscard]] std::shared_ptr<const Fields> fields_after_edit(
+    const Fields& fields, const std::vector<std::uint32_t>& node_map, const subdiv::Refinement& after,
+    const std::vector<std::uint32_t>& source_from_node = {});
 
 }  // namespace argil::sculpt

@@ -14,7 +14,8 @@ std::vector<Command> topology_commands();    // extrude peak remove
 std::vector<Command> joining_commands();     // merge weld bridge collapse fill
 std::vector<Command> splitting_commands();   // split cut
 std::vector<Command> sharpen_commands();     // sharpen
-std::vector<Command> transform_commands();   // move transform mirror duplicate project smooth
+std::vector<Command> transform_commands();   // move transform mirror duplicate
+std::vector<Command> smoothing_commands();   // smooth project
 std::vector<Command> selection_commands();   // select
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator step solve commit

@@ -129,6 +129,14 @@ Selection acted_on(const Session& session, const Arguments& arguments, std::span
   return selection;
 }
 
+Selection acted_on_or_all(const Session& session, const Arguments& arguments, std::span<const ElementType> types) {
+  require_solid(session);
+  const Selection& selected = *session.document().state().selection;
+  const bool fits = std::find(types.begin(), types.end(), selected.type) != types.end();
+  if (arguments.has("where") || (fits && !selected.ids.empty())) return acted_on(session, arguments, types);
+  return {types[0], matching(session.document(), types[0], nullptr)};
+}
+
 void edit_topology(
     Session& session,
     const std::function<void(Transaction&, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&)>& edit) {

@@ -23,6 +23,10 @@ void require_solid(const Session& session);
 [[nodiscard]] Selection acted_on(const Session& session, const Arguments& arguments,
                                  std::span<const ElementType> types);
 
+/// The same, but all elements of the first type where there is no `where` and nothing of the types is selected.
+[[nodiscard]] Selection acted_on_or_all(const Session& session, const Arguments& arguments,
+                                        std::span<const ElementType> types);
+
 /// Runs a topology edit: `edit` changes the solid through the transaction and the positions in `next` (rest and
 /// present positions grow with the vertices). Then fields, pins, loads and sets follow, and everything must still
 /// refine; if anything throws, the solid is as it was.

@@ -77,7 +77,7 @@ void edit_solid(Session& session, const std::function<Edit(Transaction&, const E
   if (refined) {
     const Refinement after = refine_to_level(solid, next.level);
     node_map = nodes_after_edit(*before, after);
-    next.fields = fields_after_edit(*next.fields, node_map, after);
+    next.fields = fields_after_edit(*next.fields, node_map, after, copied_nodes(after, made));
   }
   const EditTransfer transfer(solid, made, refined ? &node_map : nullptr);
   next.selection = std::make_shared<Selection>(transfer.follow(chosen(made, *next.selection)));

@@ -44,14 +44,6 @@ void move(Session& session, const Arguments& arguments) {
                  Eigen::Affine3d(Eigen::Translation3d(arguments.vector("by"))));
 }
 
-// Named by a condition, else selected, else everything.
-Selection acted_on_or_all(Session& session, const Arguments& arguments, std::span<const ElementType> types) {
-  require_solid(session);
-  if (arguments.has("where") || !session.document().state().selection->ids.empty())
-    return acted_on(session, arguments, types);
-  return {types[0], matching(session.document(), types[0], nullptr)};
-}
-
 Eigen::Affine3d turn(const Arguments& arguments) {
   const Eigen::Vector3d axis = arguments.vector("axis", Eigen::Vector3d::UnitZ());
   if (!(axis.norm() > 0))
@@ -133,7 +125,7 @@ std::vector<Command> transform_commands() {
   by.positional = by.required = true;
   const Parameter about = vector_parameter("about", "the point that stays; else the origin");
   const Parameter axis = vector_parameter("axis", "of the turn; else 0 0 1", "");
-  const Parameter cells = where_parameter("the cells; else those selected, or all");
+  const Parameter cells = where_parameter("the cells; else those selected, or all if no cells are");
   const Parameter rotate{
       .name = "rotate", .help = "angle about the axis", .unit = "degrees", .low = -3600, .high = 3600};
   Parameter normal = vector_parameter("normal", "across the plane, of any length", "");
@@ -159,7 +151,8 @@ std::vector<Command> transform_commands() {
       {.name = "mirror",
        .summary =
            "Grows the mirror image of cells that lie on one side of a plane; what lies in the plane is shared "
-           "and its faces become interior. Images join the named sets of what they are images of.",
+           "and its faces become interior. Images join the named sets of what they are images of, and "
+           "are pinned where those are.",
        .parameters = {normal,
                       vector_parameter("at", "a point of the plane; else the origin"),
                       {.name = "weld",

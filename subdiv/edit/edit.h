@@ -11,8 +11,8 @@
 namespace argil::subdiv {
 
 /// A vertex that is new, or stands elsewhere than before: linear · Σ weight · source + offset, of positions before
-/// the edit. Fields take the blend alone. Sources were there before the edit (they may be gone after it); the weights sum
-/// to 1.
+/// the edit. Fields take the blend alone. Sources were there before the edit (they may be gone after it); the
+/// weights sum to 1.
 struct PlacedVertex {
   VertexId vertex{};
   std::vector<std::pair<VertexId, double>> sources{};

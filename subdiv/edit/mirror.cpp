@@ -18,6 +18,8 @@ namespace {
 
 // Less than this is no fold.
 constexpr double k_fold = std::numbers::pi / 6;
+// A vertex so near the plane [m] is on neither side, even if it is not shared.
+constexpr double k_on_plane = 1e-9;
 
 Plane normalized(Plane plane) {
   const double length = plane.normal.norm();
@@ -27,9 +29,10 @@ Plane normalized(Plane plane) {
   return plane;
 }
 
+// Named twice, the source takes the image into its sets and pins.
 PlacedVertex placed(VertexId vertex, VertexId source, const Plane& plane, double times) {
   return {vertex,
-          {{source, 1.0}},
+          {{source, 0.5}, {source, 0.5}},
           times * plane.normal.dot(plane.point) * plane.normal,
           Eigen::Matrix3d::Identity() - times * plane.normal * plane.normal.transpose()};
 }
@@ -66,9 +69,8 @@ class Mirror {
       bool up = false, down = false;
       for (const VertexId v : cell_vertices(solid_, c)) {
         const double h = height(v);
-        if (std::abs(h) <= weld_) {
-          shared_.emplace(v, v);
-        } else {
+        if (std::abs(h) <= weld_) shared_.emplace(v, v);
+        if (std::abs(h) > std::max(weld_, k_on_plane)) {
           (h > 0 ? up : down) = true;
         }
       }
