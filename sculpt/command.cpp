@@ -92,6 +92,7 @@ std::string signature(const Parameter& parameter) {
                                  : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
                                                        : upper);
   }
+  if (parameter.value_optional) value = "[" + value + "]";
   if (parameter.flag)
     value = parameter.name;
   else if (!parameter.positional)
@@ -187,6 +188,8 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
              fmt::format("{}: {} wants a condition, as in `where z < 0.1`, and this is a number", command.name,
                          parameter->name));
       i = tokens.size();
+    } else if (parameter->value_optional && (i >= tokens.size() || tokens[i].kind != io::TokenKind::number)) {
+      // Its name alone.
     } else if (!parameter->flag) {
       for (int k = 0; k < parameter->count; ++k) {
         if (i >= tokens.size())

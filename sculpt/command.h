@@ -32,6 +32,7 @@ struct Parameter {
   double low = -1e300, high = 1e300;   // allowed range of numbers
   std::vector<std::string> choices{};  // allowed words; empty: any
   bool flag = false;                   // a name alone
+  bool value_optional = false;         // a name alone, or with one number
 };
 
 /// One bound argument.

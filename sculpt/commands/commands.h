@@ -15,7 +15,7 @@ std::vector<Command> joining_commands();     // merge weld bridge collapse fill
 std::vector<Command> splitting_commands();   // split cut
 std::vector<Command> sharpen_commands();     // sharpen
 std::vector<Command> transform_commands();   // move transform mirror duplicate project smooth
-std::vector<Command> selection_commands();   // select
+std::vector<Command> selection_commands();   // select sets
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator step solve commit
 std::vector<Command> tool_commands();        // tool stroke

@@ -51,6 +51,7 @@ const std::map<std::string, std::vector<std::string>> k_changes = {
     {"pin", {"pin where x < 0.01", "pin off where z < 0.01"}},
     {"remove", {"remove where z > 0.1 and x > 0.1"}},
     {"select", {"select cells as top where z > 0.1", "select vertices none"}},
+    {"sets", {"sets forget rim"}},
     {"set", {"set poisson_ratio 0.2 + x/2 where z > 0.1"}},
     {"sharpen", {"sharpen 0 where z > 0.19"}},
     {"solve", {"solve"}},
