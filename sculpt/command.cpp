@@ -84,11 +84,12 @@ std::string signature(const Parameter& parameter) {
   } else if (!parameter.choices.empty()) {
     value = joined(parameter.choices, "|");
   } else {
-    static const char* const axes[] = {"X", "Y", "Z"};
-    std::string upper = parameter.name;
+    static const char* const axes[] = {"X", "Y", "Z", "R"};
+    std::string upper = parameter.value_optional ? "N" : parameter.name;
     std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
+    const bool in_space = parameter.count % 3 == 0 || parameter.count == 4;
     for (int i = 0; i < parameter.count; ++i)
-      value += (i ? " " : "") + (parameter.count == 3  ? std::string(axes[i])
+      value += (i ? " " : "") + (in_space              ? std::string(axes[parameter.count == 4 ? i : i % 3])
                                  : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
                                                        : upper);
   }
