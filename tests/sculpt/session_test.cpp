@@ -273,6 +273,8 @@ const std::vector<BadLine> k_bad_lines = {
     {"select faces where density", ErrorCode::bad_input, "wants a condition", "input:1:20"},
     {"select faces angle 30", ErrorCode::bad_input, "asked of edges"},
     {"select faces set nobody", ErrorCode::not_found, "nobody"},
+    {"sets forget nobody", ErrorCode::not_found, "nobody"},
+    {"select faces ray 0 0 1 0 0 0", ErrorCode::bad_input, "direction"},
     {"select faces set rim", ErrorCode::not_found, "set of faces"},
     {"select faces add", ErrorCode::bad_input, "leave out add"},
     {"select nodes add remove", ErrorCode::bad_input, "exclude"},
