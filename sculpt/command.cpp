@@ -84,15 +84,17 @@ std::string signature(const Parameter& parameter) {
   } else if (!parameter.choices.empty()) {
     value = joined(parameter.choices, "|");
   } else {
-    static const char* const axes[] = {"X", "Y", "Z"};
-    std::string upper = parameter.name;
+    static const char* const axes[] = {"X", "Y", "Z", "R"};
+    std::string upper = parameter.value_optional ? "N" : parameter.name;
     std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
+    const bool in_space = parameter.count % 3 == 0 || parameter.count == 4;
     for (int i = 0; i < parameter.count; ++i)
-      value += (i ? " " : "") + (parameter.count == 3  ? std::string(axes[i])
+      value += (i ? " " : "") + (in_space              ? std::string(axes[parameter.count == 4 ? i : i % 3])
                                  : parameter.count > 1 ? fmt::format("{}{}", upper, i + 1)
                                                        : upper);
   }
   if (parameter.list) value += " …";
+  if (parameter.value_optional) value = "[" + value + "]";
   if (parameter.flag)
     value = parameter.name;
   else if (!parameter.positional)
@@ -196,6 +198,8 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
              fmt::format("{}: {} wants a condition, as in `where z < 0.1`, and this is a number", command.name,
                          parameter->name));
       i = tokens.size();
+    } else if (parameter->value_optional && (i >= tokens.size() || tokens[i].kind != io::TokenKind::number)) {
+      // Its name alone.
     } else if (!parameter->flag) {
       const auto goes_on = [&](int k) {
         return k < parameter->count || k % parameter->count != 0 ||

@@ -33,6 +33,7 @@ struct Parameter {
   std::vector<std::string> choices{};  // allowed words; empty: any
   bool flag = false;                   // a name alone
   bool list = false;                   // any number of times `count` values (named numbers only)
+  bool value_optional = false;         // a name alone, or with one number
 };
 
 /// One bound argument.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sculpt/measures.h"
+#include "sculpt/surface_look.h"
 #include "subdiv/boundary.h"
 #include "subdiv/build.h"
 
@@ -33,7 +34,7 @@ std::vector<std::string> save_document(const Document& document, const std::file
                           : subdiv::apply(refined.stencils[static_cast<std::size_t>(level)], document.positions());
   std::vector<std::string> notes;
   if (is_surface_format(path)) {
-    io::write_surface(path, surface_mesh(solid, positions));
+    io::write_surface(path, surface_mesh(solid, positions), surface_look(solid));
     return notes;
   }
   io::VolumeMesh mesh;

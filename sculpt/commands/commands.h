@@ -16,7 +16,7 @@ std::vector<Command> splitting_commands();   // split cut
 std::vector<Command> sharpen_commands();     // sharpen
 std::vector<Command> transform_commands();   // move transform mirror duplicate
 std::vector<Command> smoothing_commands();   // smooth project
-std::vector<Command> selection_commands();   // select
+std::vector<Command> selection_commands();   // select sets
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator step solve commit
 std::vector<Command> tool_commands();        // tool stroke

@@ -32,7 +32,7 @@
 #include "surface_encoders.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/common_interface_defs.h>
+extern "C" void __sanitizer_set_death_callback(void (*callback)());  // not every compiler ships its header
 #endif
 
 namespace argil::io {

@@ -52,7 +52,7 @@ void check_count(const Solid& solid, int levels, std::size_t max_cells) {
 void check_ending(const std::filesystem::path& out) {
   if (!sculpt::is_surface_format(out) && !io::is_volume_format(out))
     throw Error(ErrorCode::unsupported, fmt::format("expected a name that ends in .mesh, .vtk or .vtu, or in .obj, "
-                                                    ".ply or .stl for the boundary, found '{}'",
+                                                    ".ply, .stl, .off, .glb or .gltf for the boundary, found '{}'",
                                                     out.string()));
 }
 
