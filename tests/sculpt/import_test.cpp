@@ -54,13 +54,12 @@ TEST(Import, AHangingNodeIsRefusedByName) {
   const Error error = session.fault_of("open hanging.inp");
   EXPECT_EQ(error.code(), ErrorCode::bad_topology);
   EXPECT_THAT(error.what(), HasSubstr("point 8 at 2 1 0 lies on a face of cell 0"));
-  EXPECT_EQ(error.where(), "point 8");
 }
 
 TEST(Import, NamedSetsComeBackFromTheFormatsThatHoldThem) {
   TestSession session({"new box 3 2 2 size 3 2 2", "remove where x < 1 and y < 1",
-                       "select vertices where z > 1.9 as top", "select faces where x > 2.9 as wall",
-                       "select cells where x > 2 as end"});
+                       "select vertices as top where z > 1.9", "select faces as wall where x > 2.9",
+                       "select cells as end where x > 2"});
   const auto sets = *session.state().sets;
   std::vector<std::vector<Eigen::Vector3d>> places;
   const auto vertices_of = [](const Document& document, const Selection& set) {
@@ -91,9 +90,10 @@ TEST(Import, AFinerLevelHoldsTheCellsOfASetAndSaysWhatItLeavesOut) {
   std::string printed;
   SessionOptions options;
   options.print = [&](const std::string& message) { printed += message + "\n"; };
-  TestSession session({"new box 2 2 2", "sharpen 3 where z > 0.9", "select cells where x > 0.5 as right",
-                       "select vertices where z > 0.9 as top", "select edges as all_edges", "levels 1"},
-                      options);
+  TestSession session(
+      {"new box 2 2 2", "select edges where z > 0.9", "sharpen 10", "select cells as right where x > 0.5",
+       "select vertices as top where z > 0.9", "select edges as all_edges", "levels 1"},
+      options);
   printed.clear();
   session.run({"save fine.vtu"});
   EXPECT_THAT(printed, HasSubstr("the set 'top' of vertices is left out"));
