@@ -257,7 +257,10 @@ class Writer {
     }
     for (std::size_t c = 0; c < cells_.cell_count(); ++c) {
       const auto& in = of_cells_.groups[of_cells_.of_item[c]];
-      for (std::size_t i = 1; i < in.size(); ++i) put_cell(c, in[i]);
+      for (std::size_t i = 1; i < in.size(); ++i) {
+        put_cell(c, in[i]);
+        repeated_.push_back(c);
+      }
     }
     for (std::size_t f = 0; f < mesh_.faces.count(); ++f)
       for (const int group : of_faces_.groups[of_faces_.of_item[f]]) {
@@ -275,15 +278,18 @@ class Writer {
   }
 
   void write_fields(std::string_view section, const std::vector<NamedField>& fields, std::size_t items) {
+    const bool cells = section == "ElementData";
     for (const NamedField& field : fields) {
       fmt::format_to(std::back_inserter(text_), "${}\n1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", section, field.name,
-                     field.components, items);
-      const auto width = static_cast<std::size_t>(field.components);
-      for (std::size_t i = 0; i < items; ++i) {
-        integer(static_cast<std::int64_t>(i + 1));
-        for (std::size_t k = 0; k < width; ++k) real(field.values[i * width + k]);
+                     field.components, items + (cells ? repeated_.size() : 0));
+      const auto put_values = [&, width = static_cast<std::size_t>(field.components)](std::size_t tag,
+                                                                                      std::size_t item) {
+        integer(static_cast<std::int64_t>(tag));
+        for (std::size_t k = 0; k < width; ++k) real(field.values[item * width + k]);
         end_line();
-      }
+      };
+      for (std::size_t i = 0; i < items; ++i) put_values(i + 1, i);
+      for (std::size_t i = 0; cells && i < repeated_.size(); ++i) put_values(items + i + 1, repeated_[i]);
       end_section(section);
     }
   }
@@ -293,6 +299,7 @@ class Writer {
   std::size_t points_;
   bool binary_, old_;
   Entities of_points_, of_faces_, of_cells_;
+  std::vector<std::size_t> repeated_;  // cells that stand once more in version 2.2, in the order of their tags
   std::string text_;
 };
 

@@ -199,12 +199,15 @@ Encoding encoding_by_word(const std::string& name) {
 std::vector<std::string> leave_out_what_is_not_held(VolumeMesh& mesh, const VolumeFormat& format) {
   std::vector<std::string> notes;
   const auto thin = [&](std::vector<NamedField>& fields, std::string_view items) {
+    std::string names;
     std::erase_if(fields, [&](const NamedField& field) {
       if (format.holds_field && format.holds_field(field)) return false;
-      notes.push_back(fmt::format("{} has no place for the field '{}' of the {} ({}); it is left out", format.name,
-                                  field.name, items, format.fields));
+      names += fmt::format("{}'{}'", names.empty() ? "" : ", ", field.name);
       return true;
     });
+    if (!names.empty())
+      notes.push_back(fmt::format("{} has no place for fields of the {} named {} (it holds: {}); they are left out",
+                                  format.name, items, names, format.fields));
   };
   thin(mesh.point_fields, "points");
   thin(mesh.cell_fields, "cells");

@@ -1,5 +1,5 @@
 #pragma once
-// A document as files: the solid of a level with its fields, or its boundary surface.
+// A document as files: the solid of a level with its fields and named sets, or its boundary surface.
 
 #include <filesystem>
 #include <string>
@@ -13,7 +13,8 @@ namespace argil::sculpt {
 
 /// Writes by the ending of the name. Returns what the format could not hold and so was left out, in words.
 /// @throws Error (unsupported) where the cells themselves cannot be held.
-std::vector<std::string> save_document(const Document& document, const std::filesystem::path& path, int level);
+std::vector<std::string> save_document(const Document& document, const std::filesystem::path& path, int level,
+                                       const io::WriteOptions& options = {});
 
 /// Boundary of a solid as polygons; non-manifold vertices have copies.
 [[nodiscard]] io::SurfaceMesh surface_mesh(const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions);

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
-#include "io/volume_mesh.h"
+#include "io/volume_formats.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
+#include "sculpt/import.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
 
@@ -13,13 +14,14 @@ namespace {
 using namespace subdiv;
 
 void open(Session& session, const Arguments& arguments) {
-  const io::VolumeMesh mesh = io::read_volume_mesh(session.path_to_read(arguments.word("file")));
+  io::VolumeMesh mesh = io::read_volume_mesh(session.path_to_read(arguments.word("file")));
   check_cells(session, static_cast<double>(mesh.cells.cell_count()));
-  Built built = build(mesh.cells);
-  const auto unused = static_cast<std::size_t>(mesh.cells.positions.cols()) - built.point_from_vertex.size();
-  if (unused > 0) session.print(fmt::format("{} points belong to no cell and were left out", unused));
-  const auto point_from_vertex = built.point_from_vertex;
-  State next = state_of(std::move(built));
+  Imported imported = import_solid(mesh, arguments.has("repair"));
+  auto sets = std::make_shared<std::map<std::string, Selection>>(imported_sets(mesh, imported));
+  for (const std::string& note : imported.notes) session.print(note);
+  const auto point_from_vertex = imported.built.point_from_vertex;
+  State next = state_of(std::move(imported.built));
+  next.sets = std::move(sets);
   auto fields = std::make_shared<Fields>(*next.fields);
   for (const io::NamedField& held : mesh.point_fields) {
     for (const FieldInfo& info : field_table()) {
@@ -43,14 +45,16 @@ void open(Session& session, const Arguments& arguments) {
 std::vector<Command> file_commands() {
   return {
       {.name = "open",
-       .summary = "Begins with the cells of a volume mesh file: .mesh, .vtk or .vtu.",
+       .summary = "Begins with the cells of a volume mesh file, its fields and its named sets: " +
+                  io::volume_endings() + ".",
        .parameters = {{.name = "file",
                        .type = ArgumentType::text,
                        .help = "beneath the session's own folder",
                        .positional = true,
-                       .required = true}},
+                       .required = true},
+                      {.name = "repair", .help = "turn cells round that are inside out", .flag = true}},
        .example = "open chair.vtk",
-       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "save chair.vtk"},
+       .before = {"new box 2 2 1", "save chair.vtk"},
        .run = open},
   };
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/image.h"
-#include "io/volume_mesh.h"
+#include "io/volume_formats.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
 #include "sculpt/export.h"
@@ -74,7 +74,10 @@ void save(Session& session, const Arguments& arguments) {
   if (level > session.document().state().level)
     throw Error(ErrorCode::bad_input, fmt::format("the solid is at level {}; write `levels {}` first",
                                                   session.document().state().level, level));
-  for (const std::string& note : save_document(session.document(), path, level)) session.print(note);
+  io::WriteOptions options;
+  if (arguments.has("encoding")) options.encoding = io::encoding_by_word(arguments.word("encoding"));
+  options.version = arguments.word("version", "");
+  for (const std::string& note : save_document(session.document(), path, level, options)) session.print(note);
 }
 
 void render(Session& session, const Arguments& arguments) {
@@ -173,7 +176,8 @@ std::vector<Command> output_commands() {
        .run = expect},
       {.name = "save",
        .summary =
-           "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl), beneath --out.",
+           "Writes the solid with its fields and named sets (.vtu .vtk .msh .inp .ovm .mesh) or its boundary "
+           "(.obj .ply .stl), beneath --out; `argil formats` says what each holds.",
        .parameters = {{.name = "file",
                        .type = ArgumentType::text,
                        .help = "beneath the folder given with --out",
@@ -183,7 +187,12 @@ std::vector<Command> output_commands() {
                        .type = ArgumentType::integer,
                        .help = "refinement level; else the finest; 0 is the cage",
                        .low = 0,
-                       .high = 8}},
+                       .high = 8},
+                      {.name = "encoding",
+                       .type = ArgumentType::word,
+                       .help = "of .vtu (else raw), .msh (else binary), .vtk (else ascii)",
+                       .choices = {"ascii", "binary", "raw", "compressed"}},
+                      {.name = "version", .type = ArgumentType::text, .help = "of .msh: 2.2 or 4.1 (else 4.1)"}},
        .example = "save chair.vtu",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .effect = Effect::output,

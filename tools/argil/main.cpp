@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <new>
 
+#include "io/volume_formats.h"
 #include "sculpt/near_names.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
@@ -50,6 +51,7 @@ int run(int argc, char** argv) {
       "`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
       "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
   int status = k_well;
+  const std::string mesh_endings = argil::io::volume_endings();
 
   ReplayArguments replaying;
   CLI::App* replay_app =
@@ -105,12 +107,12 @@ int run(int argc, char** argv) {
   diff_app->callback([&] { status = diff(first, second, json); });
 
   CLI::App* info_app = app.add_subcommand("info", "Counts, measures and quality of a volume mesh");
-  info_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  info_app->add_option("mesh", first, mesh_endings)->required();
   info_app->add_flag("--json", json, "print as JSON");
   info_app->callback([&] { status = info(first, json); });
 
   CLI::App* refine_app = app.add_subcommand("refine", "Refines a volume mesh by MacCracken–Joy subdivision");
-  refine_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  refine_app->add_option("mesh", first, mesh_endings)->required();
   refine_app->add_option("out", second, "a volume mesh, or its boundary as .obj .ply .stl")->required();
   refine_app->add_option("--levels", levels, "how often")->required()->check(CLI::Range(0, 8));
   refine_app->add_flag("--limit", limit, "put the vertices where infinitely many refinements would");
@@ -118,7 +120,7 @@ int run(int argc, char** argv) {
   refine_app->callback([&] { status = refine(first, second, levels, limit, max_cells); });
 
   CLI::App* elements_app = app.add_subcommand("elements", "Classes of cells and counts of finite elements");
-  elements_app->add_option("mesh", first, ".mesh, .vtk or .vtu")->required();
+  elements_app->add_option("mesh", first, mesh_endings)->required();
   elements_app->add_option("--levels", levels, "refinements")->required()->check(CLI::Range(0, 8));
   elements_app->add_option("--space", space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
   elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")
@@ -128,13 +130,23 @@ int run(int argc, char** argv) {
   elements_app->callback([&] { status = elements(first, levels, space, split, json, max_cells); });
 
   CLI::App* convert_app = app.add_subcommand("convert", "Writes a volume mesh, or its boundary, in another format");
-  convert_app->add_option("in", first, ".mesh, .vtk or .vtu")->required();
-  convert_app->add_option("out", second, ".mesh .vtk .vtu, or .obj .ply .stl for the boundary")->required();
-  convert_app->callback([&] { status = convert(first, second); });
+  ConvertArguments converting;
+  convert_app->add_option("in", converting.in, mesh_endings)->required();
+  convert_app->add_option("out", converting.out, mesh_endings + ", or .obj .ply .stl for the boundary")->required();
+  convert_app->add_option("--encoding", converting.encoding, "ascii, binary (raw), compressed; see `argil formats`")
+      ->check(CLI::IsMember({"ascii", "binary", "raw", "compressed"}));
+  convert_app->add_option("--version", converting.version, "of .msh: 2.2 or 4.1");
+  convert_app->add_flag("--repair", converting.repair, "turn cells round that are inside out");
+  convert_app->callback([&] { status = convert(converting); });
+
+  CLI::App* formats_app = app.add_subcommand("formats", "What each volume format holds");
+  bool markdown = false;
+  formats_app->add_flag("--markdown", markdown, "as the table of docs/formats.md");
+  formats_app->callback([&] { status = formats(markdown); });
 
   RenderArguments rendering;
   CLI::App* render_app = app.add_subcommand("render", "Makes a picture of a volume mesh, without a display");
-  render_app->add_option("mesh", rendering.mesh, ".mesh, .vtk or .vtu")->required();
+  render_app->add_option("mesh", rendering.mesh, mesh_endings)->required();
   render_app->add_option("out", rendering.out, "a .png")->required();
   render_app->add_option("--levels", rendering.levels, "refinements")->check(CLI::Range(0, 8));
   render_app->add_option("--with", rendering.options,

@@ -3,12 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "fem/measure/quality.h"
-#include "io/volume_mesh.h"
+#include "io/volume_formats.h"
 #include "sculpt/export.h"
+#include "sculpt/import.h"
 #include "sculpt/session.h"
 #include "subdiv/boundary.h"
 #include "subdiv/build.h"
 #include "subdiv/error.h"
+#include "subdiv/inside_out.h"
 #include "subdiv/limit.h"
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
@@ -24,12 +26,11 @@ using nlohmann::ordered_json;
 using namespace subdiv;
 
 Built read_solid(const std::filesystem::path& path) {
-  const io::VolumeMesh mesh = io::read_volume_mesh(path);
+  io::VolumeMesh mesh = io::read_volume_mesh(path);
   try {
-    Built built = build(mesh.cells);
-    const auto unused = static_cast<std::size_t>(mesh.cells.positions.cols()) - built.point_from_vertex.size();
-    if (unused > 0) std::fprintf(stderr, "argil: %zu points belong to no cell and were left out\n", unused);
-    return built;
+    sculpt::Imported imported = sculpt::import_solid(mesh, false);
+    for (const std::string& note : imported.notes) std::fprintf(stderr, "argil: %s\n", note.c_str());
+    return std::move(imported.built);
   } catch (const Error& error) {
     throw Error(error.code(), error.what(), path.string() + (error.where().empty() ? "" : ": " + error.where()));
   }
@@ -51,9 +52,9 @@ void check_count(const Solid& solid, int levels, std::size_t max_cells) {
 // Asked before the work is done, not after it.
 void check_ending(const std::filesystem::path& out) {
   if (!sculpt::is_surface_format(out) && !io::is_volume_format(out))
-    throw Error(ErrorCode::unsupported, fmt::format("expected a name that ends in .mesh, .vtk or .vtu, or in .obj, "
-                                                    ".ply, .stl, .off, .glb or .gltf for the boundary, found '{}'",
-                                                    out.string()));
+    throw Error(ErrorCode::unsupported, fmt::format("expected a name that ends in {}, or in .obj, .ply, .stl, "
+                                                    ".off, .glb or .gltf for the boundary, found '{}'",
+                                                    io::volume_endings(), out.string()));
 }
 
 void print_text(const ordered_json& json, int indent = 0) {
@@ -165,22 +166,34 @@ int elements(const std::filesystem::path& path, int levels, const std::string& s
   return k_well;
 }
 
-int convert(const std::filesystem::path& in, const std::filesystem::path& out) {
-  check_ending(out);
-  io::VolumeMesh mesh = io::read_volume_mesh(in);
-  if (sculpt::is_surface_format(out)) {
-    const Built built = read_solid(in);
-    io::write_surface(out, sculpt::surface_mesh(built.solid, built.positions));
+int convert(const ConvertArguments& arguments) {
+  check_ending(arguments.out);
+  io::WriteOptions options;
+  if (!arguments.encoding.empty()) options.encoding = io::encoding_by_word(arguments.encoding);
+  options.version = arguments.version;
+  if (sculpt::is_surface_format(arguments.out)) {
+    if (!arguments.encoding.empty() || !arguments.version.empty())
+      throw Error(ErrorCode::bad_input, "--encoding and --version are those of volume meshes; leave them out here");
+    const Built built = read_solid(arguments.in);
+    io::write_surface(arguments.out, sculpt::surface_mesh(built.solid, built.positions));
     return k_well;
   }
-  if (out.extension() == ".mesh") {
-    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields})
-      for (const io::NamedField& field : *fields)
-        std::fprintf(stderr, "argil: MEDIT has no place for the field '%s'; it is left out\n", field.name.c_str());
-    mesh.point_fields.clear();
-    mesh.cell_fields.clear();
+  io::VolumeMesh mesh = io::read_volume_mesh(arguments.in);
+  for (const std::string& note : mesh.notes) std::fprintf(stderr, "argil: %s\n", note.c_str());
+  if (arguments.repair) {
+    const auto cells = inside_out_cells(mesh.cells);
+    for (const std::size_t cell : cells) turn_inside_out(mesh.cells, cell);
+    std::fprintf(stderr, "argil: %zu cells were inside out and are turned round\n", cells.size());
   }
-  io::write_volume_mesh(out, mesh);
+  for (const std::string& note : io::leave_out_what_is_not_held(mesh, io::volume_format_of(arguments.out)))
+    std::fprintf(stderr, "argil: %s\n", note.c_str());
+  io::write_volume_mesh(arguments.out, mesh, options);
+  return k_well;
+}
+
+int formats(bool markdown) {
+  fmt::print("{}", io::volume_format_table(markdown));
+  if (!markdown) fmt::print(".obj, .ply, .stl  the boundary alone\n");
   return k_well;
 }
 

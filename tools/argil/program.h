@@ -32,7 +32,14 @@ int refine(const std::filesystem::path& in, const std::filesystem::path& out, in
            std::size_t max_cells);
 int elements(const std::filesystem::path& mesh, int levels, const std::string& space, int split, bool json,
              std::size_t max_cells);
-int convert(const std::filesystem::path& in, const std::filesystem::path& out);
+
+struct ConvertArguments {
+  std::filesystem::path in, out;
+  std::string encoding, version;  // empty: the usual ones of the format
+  bool repair = false;
+};
+int convert(const ConvertArguments& arguments);
+int formats(bool markdown);
 
 struct RenderArguments {
   std::filesystem::path mesh, out;
