@@ -74,6 +74,9 @@ struct Tool {
   std::string falloff = "smooth";
 };
 
+/// As a session names it.
+[[nodiscard]] const char* word(subdiv::RuleSet rules);
+
 /// Everything that undo restores, but for the topology itself.
 struct State {
   std::shared_ptr<subdiv::Solid> solid;          // edited in place; replaced by `new` and `open`
@@ -85,6 +88,7 @@ struct State {
   std::shared_ptr<const Selection> selection;
   std::shared_ptr<const std::map<std::string, Selection>> sets;
   int level = 0;
+  subdiv::RuleSet rules = subdiv::RuleSet::maccracken_joy;
   fem::Space space = fem::Space::standard;
   int split = 1;
   std::string model = "corotational";
