@@ -85,7 +85,7 @@ void expect_limits_to_stay(const std::vector<Shape>& shapes, int level_count, Ru
     for (std::size_t i = 0; i < coarse.row_count(); ++i) {
       double sum = 0;
       for (const double w : coarse.row(i).weights) sum += w;
-      EXPECT_NEAR(sum, 1, 1e-14);
+      EXPECT_NEAR(sum, 1, 5e-14);  // an eigenvector of up to 75 numbers
     }
   }
 }

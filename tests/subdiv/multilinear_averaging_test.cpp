@@ -73,7 +73,7 @@ TEST(MultilinearAveraging, EveryStencilSumsToOneAndIsPositive) {
           EXPECT_GT(w, 0);
           sum += w;
         }
-        EXPECT_NEAR(sum, 1, 4e-15);
+        EXPECT_NEAR(sum, 1, 2e-14);  // blends of rows of a hundred terms
       }
     }
   };
