@@ -108,7 +108,7 @@ SplitLevels split_finest(const subdiv::Refinement& refinement, int split, const 
     const NextLevel next(*solid);
     for (std::uint32_t& v : result.vertex_points) v = next.vertex_point(VertexId{v});
     result.fields = subdiv::compose(midpoint_stencils(*solid), result.fields);
-    subdiv::RefinementStep step = subdiv::refine(*solid);
+    subdiv::RefinementStep step = subdiv::refine(*solid, refinement.rules);
     std::vector<std::uint8_t> open_below(step.coarse_from_fine.size());
     for (std::size_t c = 0; c < open_below.size(); ++c)
       open_below[c] = open[step.coarse_from_fine.raw()[c].index()];
@@ -191,7 +191,7 @@ void build_cubic(Discretization& to, const subdiv::Refinement& refinement, const
     number[v] = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back(static_cast<std::uint32_t>(v));
   }
-  Stencils limits = select_rows(subdiv::limit_stencils(solid), vertices);
+  Stencils limits = select_rows(subdiv::limit_stencils(solid, refinement.rules), vertices);
   for (std::size_t s = levels.steps.size(); s-- > 0;) limits = subdiv::compose(limits, levels.steps[s]);
   limits = subdiv::compose(limits, refinement.stencils.back());
   Stencils centres = mesh.centres;

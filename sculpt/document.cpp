@@ -47,6 +47,10 @@ const char* word(ElementType type) {
   return "";
 }
 
+const char* word(subdiv::RuleSet rules) {
+  return rules == subdiv::RuleSet::multilinear_averaging ? "multilinear" : "maccracken_joy";
+}
+
 namespace {
 
 fem::NodalFields nodal_fields(const Fields& f) {
@@ -107,9 +111,10 @@ Document::~Document() = default;
 const subdiv::Refinement& Document::refinement() const {
   Derived& d = *derived_;
   const std::uint64_t topology = solid().topology_hash();
-  if (!d.refinement || d.topology != topology || d.level != state_.level) {
+  if (!d.refinement || d.topology != topology || d.level != state_.level || d.refinement->rules != state_.rules) {
     d.drop_from_discretization();
-    d.refinement = std::make_unique<subdiv::Refinement>(subdiv::refine_to_level(solid(), state_.level));
+    d.refinement =
+        std::make_unique<subdiv::Refinement>(subdiv::refine_to_level(solid(), state_.level, state_.rules));
     d.topology = topology;
     d.level = state_.level;
   }
@@ -265,6 +270,7 @@ std::uint64_t Document::state_hash() const {
   hash.add(s.tool.strength);
   hash.add(s.tool.largest_force);
   hash.add(std::string_view(s.tool.falloff));
+  if (s.rules != subdiv::RuleSet::maccracken_joy) hash.add(std::string_view(word(s.rules)));
   return hash.value();
 }
 

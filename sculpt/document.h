@@ -74,6 +74,9 @@ struct Tool {
   std::string falloff = "smooth";
 };
 
+/// As a session names it.
+[[nodiscard]] const char* word(subdiv::RuleSet rules);
+
 /// Everything that undo restores, but for the topology itself.
 struct State {
   /// Tells states apart that share an array, since a topology edit adds to it in place (column_changes.h).
@@ -87,6 +90,7 @@ struct State {
   std::shared_ptr<const Selection> selection;
   std::shared_ptr<const std::map<std::string, Selection>> sets;
   int level = 0;
+  subdiv::RuleSet rules = subdiv::RuleSet::maccracken_joy;
   fem::Space space = fem::Space::standard;
   int split = 1;
   std::string model = "corotational";

@@ -31,6 +31,7 @@ std::string summary_json(const Session& session, const std::string& name, int th
   json["steps"] = session.steps().size();
   json["space"] = document.state().space == fem::Space::cubic ? "cubic" : "default";
   json["levels"] = document.state().level;
+  json["rules"] = word(document.state().rules);
   json["model"] = document.state().model;
   json["control_cells"] = document.solid().cell_count();
   // A solid that was never simulated, and cannot be, still has counts.

@@ -121,11 +121,11 @@ std::uint8_t HexahedralGrid::count_sides(VertexId v) const {
   // How many edges lie inside, in a side, in a box edge: 6 0 0, then 1 4 0, 0 2 2, 0 0 3.
   std::size_t inside = 0, in_side = 0, in_crease = 0;
   solid_.for_each_edge(v, [&](EdgeId e) {
-    const std::size_t faces = solid_.edge_valence(e), boundary_faces = incidence_.boundary_face_count(e);
+    const std::size_t faces = solid_.edge_valence(e), skin_faces = incidence_.skin_face_count(e);
     const double sharpness = solid_.edge_sharpness(e);
-    if (faces == 4 && boundary_faces == 0 && sharpness == 0) ++inside;
-    if (faces == 3 && boundary_faces == 2 && sharpness == 0) ++in_side;
-    if (faces == 2 && boundary_faces == 2 && sharpness >= k_infinitely_sharp) ++in_crease;
+    if (faces == 4 && skin_faces == 0 && sharpness == 0) ++inside;
+    if (faces == 3 && skin_faces == 2 && sharpness == 0) ++in_side;
+    if (faces == 2 && skin_faces == 2 && sharpness >= k_infinitely_sharp) ++in_crease;
   });
   constexpr std::array<std::array<std::size_t, 3>, 4> k_edges{{{6, 0, 0}, {1, 4, 0}, {0, 2, 2}, {0, 0, 3}}};
   return k_edges[sides] == std::array{inside, in_side, in_crease} ? sides : k_not_regular;

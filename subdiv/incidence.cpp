@@ -10,8 +10,9 @@ namespace argil::subdiv {
 Incidence::Incidence(const Solid& solid)
     : cell_offsets_(solid.cell_capacity() + 1, 0),
       vertex_offsets_(solid.vertex_capacity() + 1, 0),
-      boundary_vertex_(solid.vertex_capacity(), 0),
-      boundary_face_count_(solid.edge_capacity(), 0) {
+      skin_(solid),
+      skin_vertex_(solid.vertex_capacity(), 0),
+      skin_face_count_(solid.edge_capacity(), 0) {
   for (std::size_t c = 0; c < solid.cell_capacity(); ++c) {
     std::size_t count = 0;
     if (solid.is_live(CellId{c})) {
@@ -46,9 +47,9 @@ Incidence::Incidence(const Solid& solid)
     for (const VertexId v : vertices(c)) vertex_cells_[next[v.index()]++] = c;
 
   for (const FaceId f : solid.faces()) {
-    if (!solid.is_boundary(f)) continue;
-    for (const VertexId v : solid.face_vertices(f)) boundary_vertex_[v] = 1;
-    for (const EdgeId e : solid.face_edges(f)) ++boundary_face_count_[e];
+    if (!on_skin(f)) continue;
+    for (const VertexId v : solid.face_vertices(f)) skin_vertex_[v] = 1;
+    for (const EdgeId e : solid.face_edges(f)) ++skin_face_count_[e];
   }
 }
 

@@ -1,245 +1,176 @@
 #include "subdiv/maccracken_joy.h"
 
-#include <algorithm>
-#include <cassert>
-
-#include "subdiv/build.h"
-#include "subdiv/point_rules.h"
-
 namespace argil::subdiv {
 
 namespace {
 
-template <class IdType, class Range>
-std::vector<IdType> list(const Range& range, std::size_t count) {
-  std::vector<IdType> ids;
-  ids.reserve(count);
-  for (const IdType id : range) ids.push_back(id);
-  return ids;
-}
-
-template <class IdType>
-ElementData<IdType, std::uint32_t> number(const std::vector<IdType>& ids, std::size_t capacity) {
-  ElementData<IdType, std::uint32_t> result(capacity, 0);
-  for (std::size_t i = 0; i < ids.size(); ++i) result[ids[i]] = static_cast<std::uint32_t>(i);
-  return result;
-}
-
-// Makes the fine topology. Fine edges: two halves of every coarse edge, then one from the edge point to the face
-// point at every corner of a face (by the edge that follows the corner), then one from the face point to the cell
-// point at every face-use. Fine faces: a quarter at every corner of a face, then one at every (cell, edge).
-class CellSplitter {
+// Rows of the refinement matrix of a star.
+class StarMatrix {
  public:
-  CellSplitter(const Solid& coarse, const Incidence& incidence)
-      : coarse_(coarse),
-        incidence_(incidence),
-        vertices_(list<VertexId>(coarse.vertices(), coarse.vertex_count())),
-        edges_(list<EdgeId>(coarse.edges(), coarse.edge_count())),
-        faces_(list<FaceId>(coarse.faces(), coarse.face_count())),
-        cells_(list<CellId>(coarse.cells(), coarse.cell_count())),
-        vertex_number_(number(vertices_, coarse.vertex_capacity())),
-        edge_number_(number(edges_, coarse.edge_capacity())),
-        first_corner_(coarse.face_capacity(), 0),
-        fine_vertex_from_face_(coarse.face_capacity()) {
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      first_corner_[faces_[i]] = corner_count_;
-      corner_count_ += coarse.face_vertices(faces_[i]).size();
-      fine_vertex_from_face_[faces_[i]] = VertexId{first_face_point() + i};
+  explicit StarMatrix(const Star& star) : star_(star) {
+    const auto n = static_cast<Eigen::Index>(star.point_count());
+    face_centroids_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(star.faces.size()), n);
+    for (std::size_t j = 0; j < star.faces.size(); ++j) {
+      auto row = face_centroids_.row(index(j));
+      row(0) = row(face(j)) = row(edge(star.edges_of_face[j][0])) = row(edge(star.edges_of_face[j][1])) = 0.25;
     }
-    for (const CellId c : cells_) use_count_ += coarse.cell_face_uses(c).size();
+    matrix_ = Eigen::MatrixXd::Zero(n, n);
   }
 
-  std::size_t first_edge_point() const { return vertices_.size(); }
-  std::size_t first_face_point() const { return first_edge_point() + edges_.size(); }
-  std::size_t first_cell_point() const { return first_face_point() + faces_.size(); }
-  std::size_t fine_vertex_count() const { return first_cell_point() + cells_.size(); }
-
-  const std::vector<VertexId>& vertices() const { return vertices_; }
-  const std::vector<EdgeId>& edges() const { return edges_; }
-  const std::vector<FaceId>& faces() const { return faces_; }
-  const std::vector<CellId>& cells() const { return cells_; }
-
-  void split(RefinementStep& step) {
-    reserve();
-    for (std::size_t i = 0; i < fine_vertex_count(); ++i) builder_.add_vertex();
-    add_edges();
-    add_quarter_faces();
-    set_sharpness();
-    step.coarse_from_fine.raw().reserve(incidence_.cell_vertex_count());
-    step.corner_from_fine.raw().reserve(incidence_.cell_vertex_count());
-    std::size_t first_use = 0;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      collect_sides(cells_[i]);
-      add_inner_faces(VertexId{first_cell_point() + i}, first_use);
-      add_cells(cells_[i], step);
-      first_use += coarse_.cell_face_uses(cells_[i]).size();
+  Eigen::MatrixXd interior() {
+    const std::size_t edge_count = star_.edges.size(), face_count = star_.faces.size(),
+                      cell_count = star_.cells.size();
+    Eigen::MatrixXd cell_centroids = Eigen::MatrixXd::Zero(index(cell_count), matrix_.cols());
+    for (std::size_t j = 0; j < face_count; ++j)
+      for (const std::size_t k : star_.cells_of_face[j])
+        for (const Eigen::Index point : {face(j), edge(star_.edges_of_face[j][0]), edge(star_.edges_of_face[j][1])})
+          cell_centroids(index(k), point) = 1;
+    for (std::size_t k = 0; k < cell_count; ++k) {
+      auto row = cell_centroids.row(index(k));
+      row(0) = row(cell(k)) = 1;
+      row /= row.sum();
     }
-    step.fine = builder_.finish();
+    for (std::size_t k = 0; k < cell_count; ++k) matrix_.row(cell(k)) = cell_centroids.row(index(k));
+    for (std::size_t j = 0; j < face_count; ++j) {
+      matrix_.row(face(j)) = 0.5 * face_centroids_.row(index(j));
+      for (const std::size_t k : star_.cells_of_face[j])
+        matrix_.row(face(j)) += 0.25 * cell_centroids.row(index(k));
+    }
+    for (std::size_t i = 0; i < edge_count; ++i) {
+      double n = 0;
+      Eigen::RowVectorXd faces = Eigen::RowVectorXd::Zero(matrix_.cols()), cells = faces;
+      for (std::size_t j = 0; j < face_count; ++j) {
+        if (star_.edges_of_face[j][0] != i && star_.edges_of_face[j][1] != i) continue;
+        n += 1;
+        faces += face_centroids_.row(index(j));
+        for (const std::size_t k : star_.cells_of_face[j]) cells += 0.5 * cell_centroids.row(index(k));
+      }
+      auto row = matrix_.row(edge(i));
+      row = (cells + 2 * faces) / (n * n);
+      row(0) += (n - 3) / n / 2;
+      row(edge(i)) += (n - 3) / n / 2;
+    }
+    auto row = matrix_.row(0);
+    row = cell_centroids.colwise().mean() / 8 + 3 * face_centroids_.colwise().mean() / 8;
+    row(0) += 1.0 / 8 + 3.0 / 16;
+    for (std::size_t i = 0; i < edge_count; ++i) row(edge(i)) += 3.0 / 16 / static_cast<double>(edge_count);
+    return matrix_;
+  }
+
+  Eigen::MatrixXd skin(std::optional<std::size_t> sharp_edge) {
+    const auto k = static_cast<double>(star_.edges.size());
+    for (std::size_t j = 0; j < star_.faces.size(); ++j) {
+      matrix_.row(face(j)) = face_centroids_.row(index(j));
+      for (const std::size_t i : star_.edges_of_face[j])
+        if (i != sharp_edge) matrix_.row(edge(i)) += face_centroids_.row(index(j)) / 4;
+    }
+    matrix_.row(0) = face_centroids_.colwise().sum() / (k * k);
+    matrix_(0, 0) += (k - 3) / k + 1 / k;
+    for (std::size_t i = 0; i < star_.edges.size(); ++i) {
+      const double half = i == sharp_edge ? 0.5 : 0.25;
+      matrix_(edge(i), 0) += half;
+      matrix_(edge(i), edge(i)) += half;
+      matrix_(0, edge(i)) += 1 / (k * k);
+    }
+    return matrix_;
   }
 
  private:
-  // One of the two sides that an edge has in a cell.
-  struct Side {
-    EdgeId edge;
-    std::uint32_t corner;  // of the face, the one that the edge follows
-    std::uint32_t use;     // within the cell
-    VertexId from;         // the edge runs from here as seen from outside the cell
-    FaceUseId face;
-  };
+  static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+  Eigen::Index edge(std::size_t i) const { return index(star_.edge_point(i)); }
+  Eigen::Index face(std::size_t j) const { return index(star_.face_point(j)); }
+  Eigen::Index cell(std::size_t k) const { return index(star_.cell_point(k)); }
 
-  void reserve() {
-    std::size_t cell_corners = 0;
-    for (const CellId c : cells_)
-      for (const FaceUseId use : coarse_.cell_face_uses(c))
-        cell_corners += coarse_.face_vertices(face_of(use)).size();
-    const std::size_t fine_faces = corner_count_ + cell_corners / 2;
-    builder_.reserve(fine_vertex_count(), 2 * edges_.size() + corner_count_ + use_count_, fine_faces,
-                     4 * fine_faces, incidence_.cell_vertex_count(), 2 * cell_corners);
+  const Star& star_;
+  Eigen::MatrixXd face_centroids_, matrix_;
+};
+
+class MacCrackenJoy final : public Scheme {
+ public:
+  MacCrackenJoy(const Solid& solid, const Incidence& incidence)
+      : solid_(solid), incidence_(incidence), skin_(solid) {}
+
+  void add_cell_point(CellId c, double weight, RowBuilder& row) const override {
+    row.add_mean(incidence_.vertices(c), weight);
   }
 
-  VertexId edge_point(EdgeId e) const { return VertexId{first_edge_point() + edge_number_[e]}; }
-  EdgeId half_edge(EdgeId e, VertexId end) const {
-    return EdgeId{2 * std::size_t{edge_number_[e]} + (coarse_.edge_vertices(e)[0] == end ? 0 : 1)};
-  }
-  EdgeId spoke(std::size_t corner) const { return EdgeId{2 * edges_.size() + corner}; }
-  EdgeId cell_spoke(std::size_t use) const { return EdgeId{2 * edges_.size() + corner_count_ + use}; }
-
-  void add_edges() {
-    for (const EdgeId e : edges_)
-      for (const VertexId end : coarse_.edge_vertices(e))
-        builder_.add_edge(VertexId{std::size_t{vertex_number_[end]}}, edge_point(e));
-    for (const FaceId f : faces_)
-      for (const EdgeId e : coarse_.face_edges(f)) builder_.add_edge(edge_point(e), fine_vertex_from_face_[f]);
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      for (const FaceUseId use : coarse_.cell_face_uses(cells_[i]))
-        builder_.add_edge(fine_vertex_from_face_[face_of(use)], VertexId{first_cell_point() + i});
+  void add_interior_point(FaceId f, double weight, RowBuilder& row) const override {
+    row.add_mean(solid_.face_vertices(f), weight / 2);
+    row.add_mean(incidence_.vertices(solid_.owner(face_use(f, false))), weight / 4);
+    row.add_mean(incidence_.vertices(solid_.owner(face_use(f, true))), weight / 4);
   }
 
-  void add_quarter_faces() {
-    for (const FaceId f : faces_) {
-      const auto loop = coarse_.face_vertices(f);
-      const auto edges = coarse_.face_edges(f);
-      const std::size_t n = loop.size();
-      for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = (i + n - 1) % n;
-        builder_.add_face(std::array{VertexId{std::size_t{vertex_number_[loop[i]]}}, edge_point(edges[i]),
-                                     fine_vertex_from_face_[f], edge_point(edges[before])},
-                          std::array{half_edge(edges[i], loop[i]), spoke(first_corner_[f] + i),
-                                     spoke(first_corner_[f] + before), half_edge(edges[before], loop[i])});
-      }
-    }
+  void add_interior_point(EdgeId e, double weight, RowBuilder& row) const override {
+    const auto n = static_cast<double>(solid_.edge_valence(e));
+    if (n != 3) row.add_mean(solid_.edge_vertices(e), weight * (n - 3) / n);
+    solid_.for_each_face(e, [&](FaceId f) {
+      row.add_mean(solid_.face_vertices(f), 2 * weight / (n * n));
+      // About an interior edge every cell has two faces, so each is met twice.
+      row.add_mean(incidence_.vertices(solid_.owner(face_use(f, false))), weight / (2 * n * n));
+      row.add_mean(incidence_.vertices(solid_.owner(face_use(f, true))), weight / (2 * n * n));
+    });
   }
 
-  void set_sharpness() {
-    for (const EdgeId e : edges_)
-      if (coarse_.edge_sharpness(e) != 0)
-        for (const VertexId end : coarse_.edge_vertices(e))
-          builder_.set_sharpness(half_edge(e, end), coarse_.edge_sharpness(e));
-    for (const VertexId v : vertices_)
-      if (coarse_.vertex_sharpness(v) != 0)
-        builder_.set_sharpness(VertexId{std::size_t{vertex_number_[v]}}, coarse_.vertex_sharpness(v));
+  void add_interior_point(VertexId v, double weight, RowBuilder& row) const override {
+    // Every face at v has two edges there, so the loop over edges meets it twice.
+    const auto edge_count = static_cast<double>(solid_.vertex_valence(v));
+    std::size_t face_twice = 0;
+    solid_.for_each_edge(v, [&](EdgeId e) { face_twice += solid_.edge_valence(e); });
+    row.add(v, weight / 8);
+    solid_.for_each_edge(v, [&](EdgeId e) {
+      row.add_mean(solid_.edge_vertices(e), weight * 3 / (8 * edge_count));
+      solid_.for_each_face(e, [&](FaceId f) {
+        row.add_mean(solid_.face_vertices(f), weight * 3 / (8 * static_cast<double>(face_twice)));
+      });
+    });
+    const auto cells = incidence_.cells(v);
+    for (const CellId c : cells)
+      row.add_mean(incidence_.vertices(c), weight / (8 * static_cast<double>(cells.size())));
   }
 
-  void collect_sides(CellId cell) {
-    sides_.clear();
-    const auto uses = coarse_.cell_face_uses(cell);
-    for (std::size_t u = 0; u < uses.size(); ++u) {
-      const FaceId f = face_of(uses[u]);
-      const auto loop = coarse_.face_vertices(f);
-      const auto edges = coarse_.face_edges(f);
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        sides_.push_back({edges[i], static_cast<std::uint32_t>(first_corner_[f] + i), static_cast<std::uint32_t>(u),
-                          loop[is_back(uses[u]) ? (i + 1) % loop.size() : i], uses[u]});
-    }
-    std::sort(sides_.begin(), sides_.end(),
-              [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.use < b.use; });
-    assert(sides_.size() % 2 == 0);
+  void add_skin_point(FaceId f, double weight, RowBuilder& row) const override {
+    row.add_mean(solid_.face_vertices(f), weight);
   }
 
-  // The face about an edge is seen counter-clockwise from the edge's far end, so that its front belongs to the fine
-  // cell at the edge's first vertex.
-  void add_inner_faces(VertexId cell_point, std::size_t first_use) {
-    first_inner_face_ = builder_.solid().face_capacity();
-    for (std::size_t s = 0; s < sides_.size(); s += 2) {
-      const EdgeId e = sides_[s].edge;
-      assert(sides_[s + 1].edge == e && sides_[s].from != sides_[s + 1].from);
-      const bool first_leads = sides_[s].from == coarse_.edge_vertices(e)[0];
-      const Side& a = sides_[first_leads ? s : s + 1];
-      const Side& b = sides_[first_leads ? s + 1 : s];
-      builder_.add_face(std::array{edge_point(e), fine_vertex_from_face_[face_of(b.face)], cell_point,
-                                   fine_vertex_from_face_[face_of(a.face)]},
-                        std::array{spoke(b.corner), cell_spoke(first_use + b.use), cell_spoke(first_use + a.use),
-                                   spoke(a.corner)});
-    }
+  void add_skin_point(EdgeId e, Phase phase, double weight, RowBuilder& row) const override {
+    row.add_mean(solid_.edge_vertices(e), weight / 2);
+    solid_.for_each_face(e, [&](FaceId f) {
+      if (skin_.holds(f, phase)) row.add_mean(solid_.face_vertices(f), weight / 4);
+    });
   }
 
-  void add_cells(CellId cell, RefinementStep& step) {
-    const auto corners = incidence_.vertices(cell);
-    uses_at_.resize(std::max(uses_at_.size(), corners.size()));
-    for (auto& uses : uses_at_) uses.clear();
-    const auto uses_of = [&](VertexId v) -> std::vector<FaceUseId>& {
-      return uses_at_[static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), v) -
-                                               corners.begin())];
-    };
-    for (const FaceUseId use : coarse_.cell_face_uses(cell)) {
-      const auto loop = coarse_.face_vertices(face_of(use));
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        uses_of(loop[i]).push_back(face_use(FaceId{first_corner_[face_of(use)] + i}, is_back(use)));
-    }
-    for (std::size_t s = 0; s < sides_.size(); s += 2) {
-      const auto& ends = coarse_.edge_vertices(sides_[s].edge);
-      const FaceId inner{first_inner_face_ + s / 2};
-      uses_of(ends[0]).push_back(face_use(inner, false));
-      uses_of(ends[1]).push_back(face_use(inner, true));
-    }
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      builder_.add_cell(uses_at_[i]);
-      step.coarse_from_fine.push_back(cell);
-      step.corner_from_fine.push_back(corners[i]);
-    }
+  void add_skin_point(VertexId v, Phase phase, double weight, RowBuilder& row) const override {
+    const auto k = static_cast<double>(skin_.edge_count(v, phase));
+    if (k != 3) row.add(v, weight * (k - 3) / k);
+    solid_.for_each_edge(v, [&](EdgeId e) {
+      bool on_skin = false;
+      solid_.for_each_face(e, [&](FaceId f) {  // met twice, as above
+        if (!skin_.holds(f, phase)) return;
+        if (!on_skin) row.add_mean(solid_.edge_vertices(e), weight * 2 / (k * k));
+        on_skin = true;
+        row.add_mean(solid_.face_vertices(f), weight / (2 * k * k));
+      });
+    });
   }
 
-  const Solid& coarse_;
+  Eigen::MatrixXd interior_refinement(const Star& star) const override { return StarMatrix(star).interior(); }
+  Eigen::MatrixXd skin_refinement(const Star& star, std::optional<std::size_t> sharp_edge) const override {
+    return StarMatrix(star).skin(sharp_edge);
+  }
+  std::optional<std::array<double, 3>> skin_limit(double k) const override {
+    return std::array{k / (k + 5), 4 / (k * (k + 5)), 1 / (k * (k + 5))};
+  }
+
+ private:
+  const Solid& solid_;
   const Incidence& incidence_;
-  std::vector<VertexId> vertices_;
-  std::vector<EdgeId> edges_;
-  std::vector<FaceId> faces_;
-  std::vector<CellId> cells_;
-  VertexData<std::uint32_t> vertex_number_;
-  EdgeData<std::uint32_t> edge_number_;
-  FaceData<std::size_t> first_corner_;
-  FaceData<VertexId> fine_vertex_from_face_;
-  std::size_t corner_count_ = 0, use_count_ = 0;
-
-  Builder builder_;
-  // Reused from cell to cell:
-  std::vector<Side> sides_;
-  std::size_t first_inner_face_ = 0;
-  std::vector<std::vector<FaceUseId>> uses_at_;
+  Skin skin_;
 };
 
 }  // namespace
 
-RefinementStep refine(const Solid& coarse) {
-  const PointRules rules(coarse);
-  CellSplitter splitter(coarse, rules.incidence());
-  RefinementStep step;
-  step.first_edge_point = splitter.first_edge_point();
-  step.first_face_point = splitter.first_face_point();
-  step.first_cell_point = splitter.first_cell_point();
-  splitter.split(step);
-  step.stencils =
-      assemble_rows(splitter.fine_vertex_count(), coarse.vertex_capacity(), [&](std::size_t i, RowBuilder& row) {
-        if (i < step.first_edge_point)
-          rules.add_vertex_point(splitter.vertices()[i], 1, row);
-        else if (i < step.first_face_point)
-          rules.add_edge_point(splitter.edges()[i - step.first_edge_point], 1, row);
-        else if (i < step.first_cell_point)
-          rules.add_face_point(splitter.faces()[i - step.first_face_point], 1, row);
-        else
-          rules.add_cell_point(splitter.cells()[i - step.first_cell_point], 1, row);
-      });
-  return step;
+std::unique_ptr<Scheme> make_maccracken_joy(const Solid& solid, const Incidence& incidence) {
+  return std::make_unique<MacCrackenJoy>(solid, incidence);
 }
 
 }  // namespace argil::subdiv

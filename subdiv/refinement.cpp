@@ -33,16 +33,17 @@ std::size_t refined_cell_count(const Solid& solid, int level_count) {
   return total;
 }
 
-Refinement refine_to_level(const Solid& control, int level_count) {
+Refinement refine_to_level(const Solid& control, int level_count, RuleSet rules) {
   assert(level_count >= 0);
   Refinement result;
+  result.rules = rules;
   result.levels.push_back(control);
   result.stencils.push_back(Stencils::identity(control.vertex_capacity()));
   result.step_stencils.emplace_back();
   result.parent.emplace_back();
   result.parent_corner.emplace_back();
   for (int level = 1; level <= level_count; ++level) {
-    RefinementStep step = refine(result.levels.back());
+    RefinementStep step = refine(result.levels.back(), rules);
     result.stencils.push_back(level == 1 ? step.stencils : compose(step.stencils, result.stencils.back()));
     result.levels.push_back(std::move(step.fine));
     result.step_stencils.push_back(std::move(step.stencils));

@@ -5,11 +5,12 @@
 #include <functional>
 #include <vector>
 
-#include "subdiv/maccracken_joy.h"
+#include "subdiv/refinement_step.h"
 
 namespace argil::subdiv {
 
 struct Refinement {
+  RuleSet rules = RuleSet::maccracken_joy;
   std::vector<Solid> levels;             // 0 … K; level 0 is a copy of the control solid
   std::vector<Stencils> stencils;        // level l's vertices in control points, composed; [0] is the identity
   std::vector<Stencils> step_stencils;   // level l's vertices in those of level l − 1; [0] is empty
@@ -25,6 +26,7 @@ struct Refinement {
 [[nodiscard]] std::size_t refined_cell_count(const Solid& solid, int level_count);
 
 /// @throws what refine() throws.
-[[nodiscard]] Refinement refine_to_level(const Solid& control, int level_count);
+[[nodiscard]] Refinement refine_to_level(const Solid& control, int level_count,
+                                         RuleSet rules = RuleSet::maccracken_joy);
 
 }  // namespace argil::subdiv

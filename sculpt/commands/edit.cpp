@@ -158,7 +158,7 @@ void edit_topology(
                 fmt::format("this would make more than {} cells at level {}; lower the level or "
                             "raise --max-cells",
                             document.limits.cells, next.level));
-  const Refinement after = refine_to_level(solid, next.level);
+  const Refinement after = refine_to_level(solid, next.level, next.rules);
   const std::vector<std::uint32_t> node_map = nodes_after_edit(before, after);
   next.fields = fields_after_edit(*next.fields, node_map, after);
 

@@ -65,6 +65,18 @@ void set_level(Session& session, const Arguments& arguments) {
   session.change(std::move(next));
 }
 
+// The nodes of every level stay what they are, so fields and pins stay with them.
+void set_rules(Session& session, const Arguments& arguments) {
+  require_solid(session);
+  Document& document = session.document();
+  State next = document.state();
+  next.rules = arguments.word("rules") == word(RuleSet::multilinear_averaging) ? RuleSet::multilinear_averaging
+                                                                               : RuleSet::maccracken_joy;
+  document.assign(next);  // refine by the new rules; a failure puts the old state back
+  if (next.level > 0) check_discretization(session);
+  session.change(std::move(next));
+}
+
 void set_space(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
@@ -87,7 +99,21 @@ std::vector<Command> level_commands() {
                        .low = 0,
                        .high = 8}},
        .example = "levels 2",
+       .before = {"new box 2 2 2"},
        .run = set_level},
+      {.name = "rules",
+       .summary = "Where refinement puts the new points: by MacCracken–Joy (default), or by multilinear averaging, "
+                  "which is "
+                  "calmer where other than four cells meet at an edge. Both agree on regular grids.",
+       .parameters = {{.name = "rules",
+                       .type = ArgumentType::word,
+                       .help = "the rules",
+                       .positional = true,
+                       .required = true,
+                       .choices = {word(RuleSet::maccracken_joy), word(RuleSet::multilinear_averaging)}}},
+       .example = "rules multilinear",
+       .before = {"new box 2 2 2", "levels 1"},
+       .run = set_rules},
       {.name = "space",
        .summary =
            "Which functions the solid may move by: trilinear ones on the refined nodes (default), or tricubic "
@@ -104,6 +130,7 @@ std::vector<Command> level_commands() {
                        .low = 0,
                        .high = 3}},
        .example = "space cubic split 1",
+       .before = {"new box 3 3 3", "levels 1"},
        .run = set_space},
   };
 }

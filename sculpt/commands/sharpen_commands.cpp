@@ -12,17 +12,17 @@ namespace {
 using namespace subdiv;
 
 void sharpen_elements(Session& session, const Arguments& arguments) {
-  constexpr ElementType types[] = {ElementType::edges, ElementType::vertices};
+  constexpr ElementType types[] = {ElementType::edges, ElementType::vertices, ElementType::faces};
   const Selection selection = acted_on(session, arguments, types);
   const double value = arguments.number("value", k_infinitely_sharp);
   edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&) {
-    if (selection.type == ElementType::edges) {
-      const std::vector<EdgeId> edges(selection.ids.begin(), selection.ids.end());
-      sharpen(transaction, edges, value);
-    } else {
-      const std::vector<VertexId> vertices(selection.ids.begin(), selection.ids.end());
-      sharpen(transaction, vertices, value);
-    }
+    const auto sharpen_each = [&]<class IdType>(IdType) {
+      const std::vector<IdType> ids(selection.ids.begin(), selection.ids.end());
+      sharpen(transaction, ids, value);
+    };
+    if (selection.type == ElementType::edges) sharpen_each(EdgeId{});
+    if (selection.type == ElementType::vertices) sharpen_each(VertexId{});
+    if (selection.type == ElementType::faces) sharpen_each(FaceId{});
   });
 }
 
@@ -31,16 +31,19 @@ void sharpen_elements(Session& session, const Arguments& arguments) {
 std::vector<Command> sharpen_commands() {
   return {
       {.name = "sharpen",
-       .summary = "Makes boundary edges creases, or boundary vertices corners; 0 makes them smooth again.",
-       .parameters = {{.name = "value",
-                       .help = "sharpness: 10 is infinite, 0 smooth",
-                       .positional = true,
-                       .low = 0,
-                       .high = 10},
-                      {.name = "where",
-                       .type = ArgumentType::expression,
-                       .help = "the edges; else what is selected"}},
-       .example = "sharpen 10",
+       .summary = "Makes edges creases and vertices corners, on the boundary or on a sheet; makes faces inside the "
+                  "solid a "
+                  "sheet that keeps its own shape (`select faces interior where …`). 0 makes them smooth again.",
+       .parameters =
+           {{.name = "value",
+             .help = "sharpness: 10 (default) for ever, 0 smooth; between, sharp for so many levels, then "
+                     "rounded",
+             .positional = true,
+             .low = 0,
+             .high = k_infinitely_sharp},
+            {.name = "where", .type = ArgumentType::expression, .help = "the edges; else what is selected"}},
+       .example = "sharpen 1.5",
+       .before = {"new box 2 2 2", "select edges angle 30"},
        .run = sharpen_elements},
   };
 }

@@ -38,6 +38,15 @@ void check_walls(const Solid& solid, std::span<const FaceId> faces) {
               fmt::format("edge {}", twice->first.value));
 }
 
+// Of the sharpest sheet that ends at an edge of the boundary; 0 if none does.
+double sheet_sharpness(const Solid& solid, EdgeId e) {
+  double sharpness = 0;
+  solid.for_each_face(e, [&](FaceId f) {
+    if (!solid.is_boundary(f)) sharpness = std::max(sharpness, solid.face_sharpness(f));
+  });
+  return sharpness;
+}
+
 class Extruder {
  public:
   Extruder(Transaction& transaction, std::span<const FaceId> faces) : t_(transaction) {
@@ -47,7 +56,14 @@ class Extruder {
       loops_.push_back(use_vertices(t_.solid(), use));
       for (const VertexId v : loops_.back())
         if (source_.emplace(v, trail_sharpness(t_.solid(), v)).second) sources_.push_back(v);
-      for (const EdgeId e : t_.solid().face_edges(f)) edges_.push_back(e);
+      for (const EdgeId e : t_.solid().face_edges(f)) {
+        edges_.push_back(e);
+        if (const double sharpness = sheet_sharpness(t_.solid(), e); sharpness > 0) {
+          auto ends = t_.solid().edge_vertices(e);
+          std::sort(ends.begin(), ends.end());
+          sheets_[ends] = sharpness;
+        }
+      }
     }
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
@@ -55,6 +71,7 @@ class Extruder {
   }
 
   Extrusion run(int steps) {
+    for (const FaceUseId use : bottoms_) t_.set_sharpness(face_of(use), 0);
     for (int step = 1; step <= steps; ++step) grow(step);
     pass_on_sharpness();
     for (const FaceUseId use : bottoms_) result_.caps.push_back(face_of(use));
@@ -78,6 +95,8 @@ class Extruder {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const VertexId a = loop[i], b = loop[(i + 1) % loop.size()];
         uses.push_back(t_.add_face(std::array{below.at(a), below.at(b), top_[b], top_[a]}));
+        const auto sheet = sheets_.find({std::min(a, b), std::max(a, b)});
+        if (sheet != sheets_.end()) walls_on_sheets_.emplace_back(face_of(uses.back()), sheet->second);
       }
       result_.new_cells.push_back(t_.add_cell(uses));
       bottoms_[f] = other_side(uses[1]);
@@ -96,6 +115,8 @@ class Extruder {
       t_.set_sharpness(top_[v], solid.vertex_sharpness(v));
       if (!solid.is_boundary(v)) t_.set_sharpness(v, 0);
     }
+    for (const auto& [wall, sharpness] : walls_on_sheets_)
+      if (!solid.is_boundary(wall)) t_.set_sharpness(wall, sharpness);
     for (const auto& [edge, sharpness] : trails_)
       if (solid.is_boundary(edge)) t_.set_sharpness(edge, sharpness);
   }
@@ -109,6 +130,8 @@ class Extruder {
   std::map<VertexId, double> source_;         // and how sharp their trails are
   std::map<VertexId, VertexId> top_;          // the present cap's vertex
   std::vector<std::pair<EdgeId, double>> trails_;
+  std::map<std::array<VertexId, 2>, double> sheets_;  // that end at an edge of the region, by its vertices
+  std::vector<std::pair<FaceId, double>> walls_on_sheets_;
 };
 
 }  // namespace

@@ -23,7 +23,8 @@ struct Extrusion {
 /// Sharpness: edges and corners of the region pass theirs on to the last caps and keep it while they are boundary;
 /// what becomes interior loses it. A corner (a sharp vertex, or one where three or more sharp edges meet) leaves
 /// sharp edges behind it along the walls; the rings between steps stay smooth. So a leg from the sharp corner of a
-/// box continues the corner's edge, and what lay smooth within a face stays smooth.
+/// box continues the corner's edge, and what lay smooth within a face stays smooth. A sharp sheet that ends at an
+/// edge within the region goes on through the walls above it.
 ///
 /// @throws Error before anything is changed: (bad_input) for no faces, a face given twice or steps < 1; (not_found)
 /// for a dead face; (bad_topology) for an interior face, and where faces of the region meet at an edge of a

@@ -16,7 +16,10 @@ void remove_cells(Transaction& transaction, std::span<const CellId> cells, Dangl
       throw Error(ErrorCode::not_found,
                   fmt::format("cell {} to remove is not there or given twice; select cells again", sorted[i].value),
                   fmt::format("cell {}", sorted[i].value));
-  for (const CellId c : sorted) transaction.remove_cell(c, dangling == Dangling::remove);
+  for (const CellId c : sorted) {
+    for (const FaceUseId use : transaction.solid().cell_face_uses(c)) transaction.set_sharpness(face_of(use), 0);
+    transaction.remove_cell(c, dangling == Dangling::remove);
+  }
 }
 
 Swept remove_dangling(Transaction& transaction) {

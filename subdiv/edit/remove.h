@@ -9,7 +9,8 @@ namespace argil::subdiv {
 
 enum class Dangling { remove, keep };
 
-/// Removes the cells; faces between a removed cell and one that stays become boundary. The faces, edges and
+/// Removes the cells; faces between a removed cell and one that stays become boundary, and leave the sheets that
+/// they were of. The faces, edges and
 /// vertices that no other cell holds go as well, or are kept to build on (`refine` refuses a solid that has any).
 /// @throws Error (not_found) naming a cell that is not there or given twice, before anything is changed.
 void remove_cells(Transaction& transaction, std::span<const CellId> cells, Dangling dangling = Dangling::remove);

@@ -97,6 +97,41 @@ TEST(Discretization, DefaultSpacePassesThePatchTestWithPyramids) {
   EXPECT_GT(with_pyramids.discretization.elements.linear, 0U);
 }
 
+TEST(Discretization, DefaultSpacePassesThePatchTestUnderEitherRules) {
+  for (const auto& built : {subdiv::pyramid({1, 1, 1}), subdiv::wedge({1, 1, 1})})
+    for (const int level : {1, 2}) {
+      const SimulatedSolid solid(built, level, {}, {}, false, subdiv::RuleSet::multilinear_averaging);
+      EXPECT_LE(inner_vertex_residual(solid), 1e-12 * stress({}));
+    }
+}
+
+TEST(Discretization, CubicSpaceTakesSemiSharpCreasesAndSheets) {
+  subdiv::Built built = subdiv::box_grid(4, 3, 3, {4, 3, 3});
+  {
+    subdiv::Transaction edit(built.solid);
+    for (const subdiv::EdgeId e : built.solid.edges())
+      if (built.solid.edge_valence(e) == 2) edit.set_sharpness(e, 1.5);
+    for (const subdiv::FaceId f : built.solid.faces()) {
+      bool in_plane = !built.solid.is_boundary(f);
+      for (const subdiv::VertexId v : built.solid.face_vertices(f))
+        in_plane = in_plane && built.positions(0, v.value) == 2;
+      if (in_plane) edit.set_sharpness(f, 2.3);
+    }
+    (void)edit.commit();
+  }
+  for (const auto rules : {subdiv::RuleSet::maccracken_joy, subdiv::RuleSet::multilinear_averaging}) {
+    const SimulatedSolid solid(built, 1, {}, {Space::cubic, 1}, false, rules);
+    EXPECT_GT(solid.discretization.elements.cubic, 0U);
+    EXPECT_GT(solid.discretization.elements.linear, 0U);
+    // A stretch does work of the size of its strain: elements meet, and none is inside out.
+    const Lame material = lame(1000, 0.3);
+    Eigen::Matrix3Xd stretched = solid.rest;
+    stretched.row(2) *= 1.001;
+    const double expected = 0.5 * (material.lambda + 2 * material.mu) * 1e-6 * solid.discretization.rest_volume;
+    EXPECT_NEAR(solid.model->energy(nodes(solid.system, stretched)), expected, 1e-6 * expected);
+  }
+}
+
 TEST(Discretization, AllTricubicRegionsPassThePatchTest) {
   for (const int level : {0, 1}) {
     const SimulatedSolid solid(test::box(5, 5, 5, {1, 1, 1}), level, {}, k_cubic);

@@ -26,8 +26,9 @@ inline NodalFields constant_fields(const subdiv::Refinement& refinement, const M
 class SimulatedSolid {
  public:
   SimulatedSolid(const subdiv::Built& built, int level, const Material& material = {},
-                 const DiscretizationOptions& options = {}, bool linear = false)
-      : rest(built.positions), refinement(subdiv::refine_to_level(built.solid, level)) {
+                 const DiscretizationOptions& options = {}, bool linear = false,
+                 subdiv::RuleSet rules = subdiv::RuleSet::maccracken_joy)
+      : rest(built.positions), refinement(subdiv::refine_to_level(built.solid, level, rules)) {
     fields = constant_fields(refinement, material);
     discretization = discretize(refinement, rest, fields, options);
     model = linear ? make_linear(discretization.blocks, discretization.rest_nodes)

@@ -127,7 +127,7 @@ class RandomLines {
       case 3:
         return "remove" + maybe(where());
       default:
-        return fmt::format("sharpen{}{}", pick(2) ? "" : " 0", maybe(where()));
+        return fmt::format("sharpen{}{}", pick(3) ? (pick(2) ? "" : " 1.3") : " 0", maybe(where()));
     }
   }
 

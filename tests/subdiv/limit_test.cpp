@@ -7,7 +7,7 @@
 
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
-#include "tests/shapes/shapes.h"
+#include "tests/shapes/sharp_shapes.h"
 #include "tests/subdiv/grid_coordinates.h"
 
 namespace argil::subdiv {
@@ -44,7 +44,8 @@ Shape star_of(const Solid& solid, const Eigen::Matrix3Xd& positions, VertexId v)
 
 /// Where a vertex goes under `count` refinements of its star; stars of the vertex alone are kept between them.
 /// A boundary vertex of valence 2 may arise where the star is cut off; corners there leave the star's rules alone.
-Eigen::Vector3d refined_position(const Solid& solid, const Eigen::Matrix3Xd& positions, VertexId v, int count) {
+Eigen::Vector3d refined_position(const Solid& solid, const Eigen::Matrix3Xd& positions, VertexId v, int count,
+                                 RuleSet rules) {
   Shape star = star_of(solid, positions, v);
   for (int i = 0; i < count; ++i) {
     const VertexId at{static_cast<std::size_t>(std::stoul(star.name))};
@@ -52,38 +53,63 @@ Eigen::Vector3d refined_position(const Solid& solid, const Eigen::Matrix3Xd& pos
     for (const VertexId w : star.solid.vertices())
       if (w != at && star.solid.is_boundary(w)) outer.push_back(w);
     sharpen(star.solid, {}, outer);
-    const RefinementStep step = refine(star.solid);
+    const RefinementStep step = refine(star.solid, rules);
     star = star_of(step.fine, apply(step.stencils, star.positions), at);
   }
   return star.positions.col(static_cast<Eigen::Index>(std::stoul(star.name)));
 }
 
 TEST(Limit, IsWhatManyRefinementsConvergeToAtEveryVertexOfTheCatalogue) {
-  for (const Shape& shape : catalogue()) {
+  for (const RuleSet rules : {RuleSet::maccracken_joy, RuleSet::multilinear_averaging})
+    for (const Shape& shape : catalogue()) {
+      SCOPED_TRACE(shape.name);
+      const Eigen::Matrix3Xd limits = apply(limit_stencils(shape.solid, rules), shape.positions);
+      for (const VertexId v : shape.solid.vertices()) {
+        // The second eigenvalue is below 0.64 for the valences here: 0.64^60 = 2e-12 of the size of the star.
+        const Eigen::Vector3d refined = refined_position(shape.solid, shape.positions, v, 60, rules);
+        EXPECT_LE((limits.col(static_cast<Eigen::Index>(v.index())) - refined).norm(), 1e-11)
+            << "vertex " << v.value;
+      }
+    }
+}
+
+void expect_limits_to_stay(const std::vector<Shape>& shapes, int level_count, RuleSet rules) {
+  for (const Shape& shape : shapes) {
     SCOPED_TRACE(shape.name);
-    const Eigen::Matrix3Xd limits = apply(limit_stencils(shape.solid), shape.positions);
-    for (const VertexId v : shape.solid.vertices()) {
-      // The second eigenvalue is below 0.64 for the valences here: 0.64^60 = 2e-12 of the size of the star.
-      const Eigen::Vector3d refined = refined_position(shape.solid, shape.positions, v, 60);
-      EXPECT_LE((limits.col(static_cast<Eigen::Index>(v.index())) - refined).norm(), 1e-11) << "vertex " << v.value;
+    const Stencils coarse = limit_stencils(shape.solid, rules);
+    const Eigen::Matrix3Xd before = apply(coarse, shape.positions);
+    const Refinement refinement = refine_to_level(shape.solid, level_count, rules);
+    const Eigen::Matrix3Xd after =
+        apply(limit_stencils(refinement.solid(), rules), apply(refinement.stencils.back(), shape.positions));
+    EXPECT_LE((after.leftCols(before.cols()) - before).cwiseAbs().maxCoeff(), 1e-13);
+    for (std::size_t i = 0; i < coarse.row_count(); ++i) {
+      double sum = 0;
+      for (const double w : coarse.row(i).weights) sum += w;
+      EXPECT_NEAR(sum, 1, 5e-14);  // an eigenvector of up to 75 numbers
     }
   }
 }
 
 TEST(Limit, DoesNotMoveUnderRefinementAndItsRowsSumToOne) {
-  for (const Shape& shape : catalogue()) {
-    SCOPED_TRACE(shape.name);
-    const RefinementStep step = refine(shape.solid);
-    const Stencils coarse = limit_stencils(shape.solid);
-    const Eigen::Matrix3Xd before = apply(coarse, shape.positions);
-    const Eigen::Matrix3Xd after = apply(limit_stencils(step.fine), apply(step.stencils, shape.positions));
-    EXPECT_LE((after.leftCols(before.cols()) - before).cwiseAbs().maxCoeff(), 1e-13);
-    for (std::size_t i = 0; i < coarse.row_count(); ++i) {
-      double sum = 0;
-      for (const double w : coarse.row(i).weights) sum += w;
-      EXPECT_NEAR(sum, 1, 1e-14);
-    }
+  for (const RuleSet rules : {RuleSet::maccracken_joy, RuleSet::multilinear_averaging})
+    expect_limits_to_stay(catalogue(), 1, rules);
+}
+
+TEST(Limit, DoesNotMoveUnderRefinementWhereItIsSemiSharpOrOnASheet) {
+  for (const RuleSet rules : {RuleSet::maccracken_joy, RuleSet::multilinear_averaging}) {
+    expect_limits_to_stay(semi_sharp_shapes(), 1, rules);
+    expect_limits_to_stay(sharp_sheets(), 1, rules);
   }
+}
+
+TEST(Limit, IsThatOfTheLevelWhereSharpnessHasGone) {
+  Built cube = box_grid(1, 1, 1, {1, 1, 1});
+  Transaction edit(cube.solid);
+  for (const EdgeId e : cube.solid.edges()) edit.set_sharpness(e, 0.3 + 0.3 * static_cast<double>(e.index()));
+  edit.set_sharpness(VertexId{3}, 1.4);
+  (void)edit.commit();
+  expect_limits_to_stay({{"semi-sharp cube", cube.solid, jittered(cube.positions, 0.1, 1), true}}, 4,
+                        RuleSet::maccracken_joy);
 }
 
 TEST(Limit, InteriorOfAGridHasOneFourOneWeights) {

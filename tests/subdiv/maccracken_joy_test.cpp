@@ -1,4 +1,4 @@
-#include "subdiv/maccracken_joy.h"
+#include "subdiv/refinement_step.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,9 @@
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement.h"
+#include "subdiv/skin.h"
 #include "subdiv/validate.h"
-#include "tests/shapes/shapes.h"
+#include "tests/shapes/sharp_shapes.h"
 #include "tests/subdiv/grid_coordinates.h"
 #include "tests/subdiv/reference_subdivider.h"
 
@@ -33,13 +34,16 @@ ReferenceSolid reference_solid(const Shape& shape) {
         result.cells.back().back().push_back(static_cast<int>(v.index()));
     }
   }
+  const auto set_sharpness = [&](const auto& vertices, double sharpness) {
+    PointSet name;
+    for (const VertexId v : vertices) name.insert(static_cast<int>(v.index()));
+    if (sharpness > 0) result.sharpness[name] = sharpness;
+  };
   for (const EdgeId e : shape.solid.edges())
-    if (shape.solid.edge_sharpness(e) > 0) {
-      const auto& ends = shape.solid.edge_vertices(e);
-      result.sharp_edges.insert({static_cast<int>(ends[0].index()), static_cast<int>(ends[1].index())});
-    }
-  for (const VertexId v : shape.solid.vertices())
-    if (shape.solid.vertex_sharpness(v) > 0) result.corners.insert(static_cast<int>(v.index()));
+    set_sharpness(shape.solid.edge_vertices(e), shape.solid.edge_sharpness(e));
+  for (const VertexId v : shape.solid.vertices()) set_sharpness(std::array{v}, shape.solid.vertex_sharpness(v));
+  for (const FaceId f : shape.solid.faces())
+    if (!shape.solid.is_boundary(f)) set_sharpness(shape.solid.face_vertices(f), shape.solid.face_sharpness(f));
   return result;
 }
 
@@ -54,15 +58,15 @@ Loops canonical(std::vector<std::vector<int>> cell) {
   return loops;
 }
 
-TEST(MacCrackenJoy, AgreesWithTheReferenceSubdividerOnTheCatalogue) {
-  for (Shape& shape : catalogue()) {
+void expect_agreement(const std::vector<Shape>& shapes, std::size_t most_cells) {
+  for (const Shape& shape : shapes) {
     SCOPED_TRACE(shape.name);
     ReferenceSolid reference = reference_solid(shape);
     std::vector<int> name(shape.solid.vertex_capacity());  // the reference's number of each vertex
     for (std::size_t i = 0; i < name.size(); ++i) name[i] = static_cast<int>(i);
     Solid solid = shape.solid;
     Eigen::Matrix3Xd positions = shape.positions;
-    for (int level = 1; level <= 2 && solid.cell_count() < 60; ++level) {
+    for (int level = 1; level <= 2 && solid.cell_count() < most_cells; ++level) {
       const RefinementStep step = refine(solid);
       const ReferenceStep expected = refine(reference);
       positions = apply(step.stencils, positions);
@@ -103,6 +107,18 @@ TEST(MacCrackenJoy, AgreesWithTheReferenceSubdividerOnTheCatalogue) {
       name = fine_name;
     }
   }
+}
+
+TEST(MacCrackenJoy, AgreesWithTheReferenceSubdividerOnTheCatalogue) {
+  expect_agreement(catalogue(), 60);
+}
+
+TEST(MacCrackenJoy, AgreesWithTheReferenceSubdividerWhereItIsSemiSharp) {
+  expect_agreement(semi_sharp_shapes(), 60);
+}
+
+TEST(MacCrackenJoy, AgreesWithTheReferenceSubdividerOnSharpSheets) {
+  expect_agreement(sharp_sheets(), 60);
 }
 
 TEST(MacCrackenJoy, KeepsEveryInvariantOfTheSolidAndItsEulerNumber) {
@@ -250,21 +266,21 @@ TEST(MacCrackenJoy, BoundaryThatIsNoManifoldIsSharpThere) {
   {  // two cubes that share an edge: its ends are where sheets end
     const Built built = build(cubes({{0, 0, 0}, {1, 1, 0}}));
     const EdgeId shared = *built.solid.find_edge(VertexId{2}, VertexId{6});
-    EXPECT_TRUE(is_sharp(built.solid, shared));
-    EXPECT_EQ(boundary_vertex_rule(built.solid, VertexId{2}), BoundaryVertexRule::corner);
-    EXPECT_EQ(boundary_vertex_rule(built.solid, VertexId{0}), BoundaryVertexRule::smooth);
+    EXPECT_EQ(Skin(built.solid).rule(shared, Phase::parent), EdgeRule::crease);
+    EXPECT_EQ(Skin(built.solid).rule(VertexId{2}, Phase::parent), VertexRule::corner);
+    EXPECT_EQ(Skin(built.solid).rule(VertexId{0}, Phase::parent), VertexRule::smooth);
     const RefinementStep step = refine(built.solid);
     const Eigen::Matrix3Xd fine = apply(step.stencils, built.positions);
     const auto middle = static_cast<Eigen::Index>(step.first_edge_point + shared.index());
     EXPECT_EQ(fine.col(2), built.positions.col(2));
     EXPECT_EQ(fine.col(middle), (built.positions.col(2) + built.positions.col(6)) / 2);
     // Where two branching edges hold all sheets together the vertex is a crease.
-    EXPECT_EQ(boundary_vertex_rule(step.fine, VertexId{step.first_edge_point + shared.index()}),
-              BoundaryVertexRule::crease);
+    EXPECT_EQ(Skin(step.fine).rule(VertexId{step.first_edge_point + shared.index()}, Phase::parent),
+              VertexRule::crease);
   }
   {  // two cubes that share a vertex
     const Built built = build(cubes({{0, 0, 0}, {1, 1, 1}}));
-    EXPECT_EQ(boundary_vertex_rule(built.solid, VertexId{6}), BoundaryVertexRule::corner);
+    EXPECT_EQ(Skin(built.solid).rule(VertexId{6}, Phase::parent), VertexRule::corner);
     EXPECT_EQ(apply(refine(built.solid).stencils, built.positions).col(6), built.positions.col(6));
   }
 }
@@ -300,25 +316,55 @@ TEST(MacCrackenJoy, RefusesASmoothBoundaryVertexOfTwoEdgesButNotASharpOne) {
   EXPECT_NO_THROW((void)refine(solid));
 }
 
-TEST(MacCrackenJoy, RefusesSemiSharpAndInteriorSharpByName) {
-  const auto sharpened = [](EdgeId e, VertexId v, double sharpness) {
-    Solid solid = box_grid(2, 2, 2, {1, 1, 1}).solid;
-    Transaction edit(solid);
-    if (e.valid()) edit.set_sharpness(e, sharpness);
-    if (v.valid()) edit.set_sharpness(v, sharpness);
-    (void)edit.commit();
-    return solid;
-  };
+TEST(MacCrackenJoy, RefusesWhatIsSharpInsideTheSolidAndOnNoSheet) {
   const Solid grid = box_grid(2, 2, 2, {1, 1, 1}).solid;
-  const EdgeId outside = *grid.find_edge(VertexId{0}, VertexId{1}),
-               inside = *grid.find_edge(VertexId{13}, VertexId{4});
-  const auto refused = [&](EdgeId e, VertexId v, double sharpness) {
-    return refusal([&] { (void)refine(sharpened(e, v, sharpness)); }, ErrorCode::unsupported);
+  const EdgeId inside = *grid.find_edge(VertexId{13}, VertexId{4});
+  Solid sharp_edge = grid, sharp_vertex = grid;
+  sharpen(sharp_edge, {inside});
+  sharpen(sharp_vertex, {}, {VertexId{13}});
+  EXPECT_THAT(refusal([&] { (void)refine(sharp_edge); }, ErrorCode::unsupported),
+              testing::HasSubstr("sharp inside the solid"));
+  EXPECT_THAT(refusal([&] { (void)refine(sharp_vertex); }, ErrorCode::unsupported),
+              testing::HasSubstr("vertex 13 is sharp inside"));
+  // On a sheet both are taken.
+  std::vector<FaceId> sheet;
+  sharp_edge.for_each_face(inside, [&](FaceId f) { sheet.push_back(f); });
+  for (Solid* solid : {&sharp_edge, &sharp_vertex}) {
+    sharpen(*solid, sheet, 2);
+    EXPECT_NO_THROW((void)refine(*solid));
+  }
+}
+
+TEST(MacCrackenJoy, SharpnessFallsByOneALevelAndInfiniteSharpnessStays) {
+  Solid solid = box_grid(2, 2, 2, {1, 1, 1}).solid;
+  const EdgeId edge = *solid.find_edge(VertexId{0}, VertexId{1});
+  const FaceId face = *solid.find_face(std::array{VertexId{4}, VertexId{13}, VertexId{14}, VertexId{5}});
+  sharpen(solid, std::vector{face}, 2.5);
+  {
+    Transaction edit(solid);
+    edit.set_sharpness(edge, 1.7);
+    edit.set_sharpness(VertexId{0}, 10);
+    edit.set_sharpness(VertexId{13}, 7);  // but its sheet is no sharper than 2.5
+    (void)edit.commit();
+  }
+  const Refinement refinement = refine_to_level(solid, 3);
+  const auto sharpest = [&](std::size_t level, auto ids, auto sharpness) {
+    std::multiset<double> found;
+    for (const auto id : ids)
+      if (sharpness(id) > 0) found.insert(std::round(1e6 * sharpness(id)) / 1e6);
+    return std::pair(level, found);
   };
-  EXPECT_THAT(refused(outside, {}, 2.5), testing::HasSubstr("(vertices 0 and 1) is semi-sharp"));
-  EXPECT_THAT(refused({}, VertexId{0}, 2.5), testing::HasSubstr("vertex 0 is semi-sharp"));
-  EXPECT_THAT(refused(inside, {}, k_infinitely_sharp), testing::HasSubstr("sharp inside the solid"));
-  EXPECT_THAT(refused({}, VertexId{13}, k_infinitely_sharp), testing::HasSubstr("vertex 13 is sharp inside"));
+  for (std::size_t level = 1; level <= 3; ++level) {
+    const Solid& s = refinement.levels[level];
+    const auto edges = sharpest(level, s.edges(), [&](EdgeId e) { return s.edge_sharpness(e); }).second;
+    const auto faces = sharpest(level, s.faces(), [&](FaceId f) { return s.face_sharpness(f); }).second;
+    const auto vertices = sharpest(level, s.vertices(), [&](VertexId v) { return s.vertex_sharpness(v); }).second;
+    EXPECT_EQ(edges, level == 1 ? (std::multiset<double>{0.7, 0.7}) : std::multiset<double>{});
+    EXPECT_EQ(faces.size(), level == 3 ? 0U : (level == 1 ? 4U : 16U));
+    EXPECT_EQ(vertices, level == 1   ? (std::multiset<double>{1.5, 10})
+                        : level == 2 ? (std::multiset<double>{0.5, 10})
+                                     : std::multiset<double>{10});
+  }
 }
 
 TEST(MacCrackenJoy, SharpnessPassesToTheHalvesOfAnEdge) {

@@ -33,15 +33,22 @@ std::set<int> set_of(const far::ConstIndexArray& vertices) {
 }  // namespace
 
 OpenSubdivResult refine_with_opensubdiv(const Eigen::Matrix3Xd& points, const std::vector<std::vector<int>>& faces,
-                                        const std::set<std::set<int>>& sharp_edges, const std::set<int>& corners,
-                                        int level_count) {
-  std::vector<int> sizes, loops, edge_ends, corner_list(corners.begin(), corners.end());
+                                        const std::map<std::set<int>, double>& sharp_edges,
+                                        const std::map<int, double>& corners, int level_count) {
+  std::vector<int> sizes, loops, edge_ends, corner_list;
+  std::vector<float> edge_weights, corner_weights;
   for (const auto& face : faces) {
     sizes.push_back(static_cast<int>(face.size()));
     loops.insert(loops.end(), face.begin(), face.end());
   }
-  for (const auto& e : sharp_edges) edge_ends.insert(edge_ends.end(), e.begin(), e.end());
-  const std::vector<float> edge_weights(sharp_edges.size(), 10), corner_weights(corners.size(), 10);
+  for (const auto& [e, sharpness] : sharp_edges) {
+    edge_ends.insert(edge_ends.end(), e.begin(), e.end());
+    edge_weights.push_back(static_cast<float>(sharpness));
+  }
+  for (const auto& [v, sharpness] : corners) {
+    corner_list.push_back(v);
+    corner_weights.push_back(static_cast<float>(sharpness));
+  }
   far::TopologyDescriptor descriptor;
   descriptor.numVertices = static_cast<int>(points.cols());
   descriptor.numFaces = static_cast<int>(faces.size());
@@ -55,7 +62,9 @@ OpenSubdivResult refine_with_opensubdiv(const Eigen::Matrix3Xd& points, const st
   descriptor.cornerWeights = corner_weights.data();
 
   using Factory = far::TopologyRefinerFactory<far::TopologyDescriptor>;
-  Factory::Options options(sdc::SCHEME_CATMARK);
+  sdc::Options boundary;
+  boundary.SetVtxBoundaryInterpolation(sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+  Factory::Options options(sdc::SCHEME_CATMARK, boundary);
   options.validateFullTopology = true;
   const std::unique_ptr<far::TopologyRefiner> refiner(Factory::Create(descriptor, options));
   if (!refiner) throw std::runtime_error("OpenSubdiv refuses the surface");

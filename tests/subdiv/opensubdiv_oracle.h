@@ -1,5 +1,6 @@
 #pragma once
-// OpenSubdiv as oracle: Catmull–Clark of a closed polygonal surface with infinitely sharp edges and corners.
+// OpenSubdiv as oracle: Catmull–Clark of a polygonal surface with sharp edges and corners; where it is open, its
+// edges are creases (and its corners no more than that).
 
 #include <Eigen/Core>
 #include <map>
@@ -18,7 +19,7 @@ struct OpenSubdivResult {
 };
 
 OpenSubdivResult refine_with_opensubdiv(const Eigen::Matrix3Xd& points, const std::vector<std::vector<int>>& faces,
-                                        const std::set<std::set<int>>& sharp_edges, const std::set<int>& corners,
-                                        int level_count);
+                                        const std::map<std::set<int>, double>& sharp_edges,
+                                        const std::map<int, double>& corners, int level_count);
 
 }  // namespace argil::subdiv::test

@@ -73,7 +73,7 @@ std::map<PointSet, Eigen::Vector3d> catmull_clark(const Points& points, const st
     for (const PointSet& e : edges_of(face)) faces_of_edge[e].push_back(set_of(face));
     for (const int v : face) faces_of_vertex[v].push_back(face);
   }
-  const auto is_sharp = [&](const PointSet& e) { return sharp_edges.count(e) > 0 || faces_of_edge[e].size() > 2; };
+  const auto is_sharp = [&](const PointSet& e) { return sharp_edges.count(e) > 0 || faces_of_edge[e].size() != 2; };
   for (const auto& [e, its_faces] : faces_of_edge) {
     result[e] = centroid(points, e);
     if (!is_sharp(e)) result[e] = 0.5 * result[e] + 0.25 * (result[its_faces[0]] + result[its_faces[1]]);
@@ -82,16 +82,17 @@ std::map<PointSet, Eigen::Vector3d> catmull_clark(const Points& points, const st
     const Eigen::Vector3d& old = points[static_cast<std::size_t>(v)];
     Points midpoints, centroids, across_sharp;
     std::set<PointSet> edges;
-    int branching = 0;
+    int branching = 0, rims = 0;
     for (const auto& [e, around] : faces_of_edge) {
       if (!e.count(v)) continue;
       edges.insert(e);
       midpoints.push_back(centroid(points, e));
       if (is_sharp(e)) across_sharp.push_back(2 * centroid(points, e) - old);
       branching += around.size() > 2 ? 1 : 0;
+      rims += around.size() == 1 ? 1 : 0;
     }
     for (const auto& face : its_faces) centroids.push_back(centroid(points, set_of(face)));
-    const bool open_branch = branching != 0 && (branching != 2 || across_sharp.size() != 2);
+    const bool open_branch = branching + rims != 0 && ((branching != 2 && rims != 2) || across_sharp.size() != 2);
     if (corners.count(v) || across_sharp.size() > 2 || open_branch || group_count(its_faces, edges) > 1) {
       result[{v}] = old;
     } else if (across_sharp.size() == 2) {
@@ -104,32 +105,35 @@ std::map<PointSet, Eigen::Vector3d> catmull_clark(const Points& points, const st
   return result;
 }
 
-ReferenceStep refine(const ReferenceSolid& coarse) {
-  struct Face {
-    std::vector<int> loop;
-    std::vector<std::size_t> cells;
+namespace {
+
+struct Face {
+  std::vector<int> loop;
+  std::vector<std::size_t> cells;
+};
+
+// The new points if all that is sharper than `least` were so for ever, and nothing else were.
+std::map<PointSet, Eigen::Vector3d> points_at(const ReferenceSolid& coarse, const std::map<PointSet, Face>& faces,
+                                              const std::set<PointSet>& edges,
+                                              const std::vector<PointSet>& cell_sets, double least) {
+  std::vector<std::vector<int>> skin;
+  std::set<PointSet> sharp_edges;
+  std::set<int> corners;
+  const auto is_sharp = [&](const PointSet& name) {
+    const auto found = coarse.sharpness.find(name);
+    return found != coarse.sharpness.end() && found->second > least;
   };
-  std::map<PointSet, Face> faces;
-  std::set<PointSet> edges;
-  std::vector<PointSet> cell_sets;
-  for (std::size_t c = 0; c < coarse.cells.size(); ++c) {
-    cell_sets.push_back(set_of(coarse.cells[c]));
-    for (const auto& loop : coarse.cells[c]) {
-      Face& face = faces[set_of(loop)];
-      face.loop = loop;
-      face.cells.push_back(c);
-      for (const PointSet& e : edges_of(loop)) edges.insert(e);
-    }
-  }
-  std::vector<std::vector<int>> boundary_loops;
   for (const auto& [name, face] : faces)
-    if (face.cells.size() == 1) boundary_loops.push_back(face.loop);
-  std::map<PointSet, Eigen::Vector3d> points =
-      catmull_clark(coarse.points, boundary_loops, coarse.sharp_edges, coarse.corners);
+    if (face.cells.size() == 1 || is_sharp(name)) skin.push_back(face.loop);
+  for (const auto& [name, sharpness] : coarse.sharpness) {
+    if (name.size() == 2 && is_sharp(name)) sharp_edges.insert(name);
+    if (name.size() == 1 && is_sharp(name)) corners.insert(*name.begin());
+  }
+  std::map<PointSet, Eigen::Vector3d> points = catmull_clark(coarse.points, skin, sharp_edges, corners);
 
   for (const PointSet& cell : cell_sets) points[cell] = centroid(coarse.points, cell);
   for (const auto& [name, face] : faces)
-    if (face.cells.size() == 2)
+    if (!points.count(name))
       points[name] = 0.25 * (points[cell_sets[face.cells[0]]] + points[cell_sets[face.cells[1]]]) +
                      0.5 * centroid(coarse.points, name);
   const auto means_about = [&](const PointSet& element) {
@@ -153,15 +157,73 @@ ReferenceStep refine(const ReferenceSolid& coarse) {
     points[{v}] = (c + 3 * a + 3 * m + coarse.points[static_cast<std::size_t>(v)]) / 8;
   }
 
+  return points;
+}
+
+// No sharper than the sharpest face of the skin about it.
+ReferenceSolid clamped(const ReferenceSolid& solid, const std::map<PointSet, Face>& faces) {
+  ReferenceSolid result = solid;
+  for (auto& [name, sharpness] : result.sharpness) {
+    if (name.size() > 2) continue;
+    double most = 0;
+    for (const auto& [face_name, face] : faces) {
+      if (!holds(face_name, name)) continue;
+      const auto found = solid.sharpness.find(face_name);
+      const double inside = found == solid.sharpness.end() ? 0 : found->second;
+      most = std::max(most, face.cells.size() == 1 ? 10 : inside);
+    }
+    sharpness = std::min(sharpness, most);
+  }
+  return result;
+}
+
+}  // namespace
+
+ReferenceStep refine(const ReferenceSolid& unclamped) {
+  std::map<PointSet, Face> faces;
+  std::set<PointSet> edges;
+  std::vector<PointSet> cell_sets;
+  for (std::size_t c = 0; c < unclamped.cells.size(); ++c) {
+    cell_sets.push_back(set_of(unclamped.cells[c]));
+    for (const auto& loop : unclamped.cells[c]) {
+      Face& face = faces[set_of(loop)];
+      face.loop = loop;
+      face.cells.push_back(c);
+      for (const PointSet& e : edges_of(loop)) edges.insert(e);
+    }
+  }
+  const ReferenceSolid coarse = clamped(unclamped, faces);
+  std::map<PointSet, Eigen::Vector3d> points = points_at(coarse, faces, edges, cell_sets, 0);
+  const auto child_points = points_at(coarse, faces, edges, cell_sets, 1);
+  for (auto& [name, point] : points) {
+    std::vector<double> ending;
+    for (const auto& [other, sharpness] : coarse.sharpness)
+      if (sharpness > 0 && sharpness <= 1 && holds(other, name)) ending.push_back(sharpness);
+    if (ending.empty()) continue;
+    double weight = 0;
+    for (const double sharpness : ending) weight += sharpness / static_cast<double>(ending.size());
+    point = weight * point + (1 - weight) * child_points.at(name);
+  }
+
   ReferenceStep step;
   for (const auto& [name, point] : points) {
     step.fine_from_coarse[name] = static_cast<int>(step.fine.points.size());
     step.fine.points.push_back(point);
   }
   const auto fine = [&](const PointSet& name) { return step.fine_from_coarse.at(name); };
-  for (const PointSet& e : coarse.sharp_edges)
-    for (const int v : e) step.fine.sharp_edges.insert({fine({v}), fine(e)});
-  for (const int v : coarse.corners) step.fine.corners.insert(fine({v}));
+  for (const auto& [name, sharpness] : coarse.sharpness) {
+    const double left = sharpness >= 10 ? 10 : sharpness - 1;
+    if (left <= 0) continue;
+    if (name.size() == 1) step.fine.sharpness[{fine(name)}] = left;
+    if (name.size() == 2)
+      for (const int v : name) step.fine.sharpness[{fine({v}), fine(name)}] = left;
+    if (name.size() < 3) continue;
+    const auto& loop = faces.at(name).loop;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int v = loop[i], next = loop[(i + 1) % loop.size()], before = loop[(i + loop.size() - 1) % loop.size()];
+      step.fine.sharpness[{fine({v}), fine({v, next}), fine(name), fine({v, before})}] = left;
+    }
+  }
 
   for (std::size_t c = 0; c < coarse.cells.size(); ++c)
     for (const int v : cell_sets[c]) {

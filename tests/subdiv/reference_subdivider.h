@@ -1,6 +1,7 @@
 #pragma once
 // A second MacCracken–Joy subdivider, slow and plain, as oracle: solids are lists of loops, incidence is found by
-// searching sets, the boundary is refined as a surface of its own. Shares no code with subdiv/.
+// searching sets, the skin is refined as a surface of its own; what is semi-sharp is a blend of two whole
+// refinements. Shares no code with subdiv/.
 
 #include <Eigen/Core>
 #include <map>
@@ -16,8 +17,7 @@ using PointSet = std::set<int>;  // the vertices of an element: its name
 struct ReferenceSolid {
   Points points;
   std::vector<std::vector<std::vector<int>>> cells;  // loops, counter-clockwise from outside the cell
-  std::set<PointSet> sharp_edges;
-  std::set<int> corners;
+  std::map<PointSet, double> sharpness;              // of edges, vertices, and faces inside; 10 is infinite
 };
 
 struct ReferenceStep {
@@ -26,7 +26,7 @@ struct ReferenceStep {
 };
 ReferenceStep refine(const ReferenceSolid& coarse);
 
-/// New points of a closed polygonal surface by Catmull–Clark, by the vertices of the element.
+/// New points of a polygonal surface by Catmull–Clark, by the vertices of the element.
 std::map<PointSet, Eigen::Vector3d> catmull_clark(const Points& points, const std::vector<std::vector<int>>& faces,
                                                   const std::set<PointSet>& sharp_edges,
                                                   const std::set<int>& corners);

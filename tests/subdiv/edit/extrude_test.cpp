@@ -227,5 +227,29 @@ TEST(ExtrudeSharpness, ThreeSharpEdgesMakeACornerToo) {
   EXPECT_EQ(model.sharpness({0, 0, 1}, {0, 0, 2}), k_infinitely_sharp);
 }
 
+TEST(Extrude, SharpSheetGoesOnThroughTheWallsAboveIt) {
+  Built built = box_grid(2, 1, 1, {2, 1, 1});
+  std::vector<FaceId> caps;
+  Transaction transaction(built.solid);
+  for (const FaceId f : built.solid.faces()) {
+    if (!built.solid.is_boundary(f)) {
+      transaction.set_sharpness(f, 4);
+      continue;
+    }
+    bool top = true;
+    for (const VertexId v : built.solid.face_vertices(f)) top = top && built.positions(2, v.value) == 1;
+    if (top) caps.push_back(f);
+  }
+  (void)extrude(transaction, caps, 2);
+  std::size_t sharp = 0;
+  for (const FaceId f : built.solid.faces()) {
+    if (built.solid.face_sharpness(f) == 0) continue;
+    EXPECT_EQ(built.solid.face_sharpness(f), 4);
+    EXPECT_FALSE(built.solid.is_boundary(f));
+    ++sharp;
+  }
+  EXPECT_EQ(sharp, 3U) << "the old one and a wall a step";
+}
+
 }  // namespace
 }  // namespace argil::subdiv

@@ -53,10 +53,34 @@ TEST_F(Sharpen, RefusesTheInteriorByName) {
   }
 }
 
-TEST_F(Sharpen, RefusesValuesBetweenAndDeadIds) {
-  EXPECT_EQ(code(EdgeId{1u}, 2.5), ErrorCode::unsupported);
-  EXPECT_EQ(code(EdgeId{1u}, -1), ErrorCode::unsupported);
-  EXPECT_EQ(code(VertexId{1u}, std::numeric_limits<double>::quiet_NaN()), ErrorCode::unsupported);
+TEST_F(Sharpen, MakesSheetsInsideAndTakesWhatIsOnThemAlongWhenTheyGo) {
+  const FaceId inner = *solid.find_face(std::array{VertexId{4u}, VertexId{13u}, VertexId{14u}, VertexId{5u}});
+  const FaceId outer = *solid.find_face(std::array{VertexId{0u}, VertexId{1u}, VertexId{4u}, VertexId{3u}});
+  const EdgeId rim = *solid.find_edge(middle, VertexId{14u});
+  const std::uint64_t smooth = solid.topology_hash();
+  Transaction transaction(solid);
+  try {
+    sharpen(transaction, std::array{inner, outer}, 3);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unsupported);
+    EXPECT_THAT(error.what(), testing::HasSubstr("is on the boundary"));
+  }
+  EXPECT_EQ(solid.topology_hash(), smooth);
+  sharpen(transaction, std::array{inner}, 3);
+  sharpen(transaction, std::array{rim}, 1.5);
+  sharpen(transaction, std::array{middle}, 10);
+  EXPECT_EQ(solid.face_sharpness(inner), 3);
+  EXPECT_EQ(solid.edge_sharpness(rim), 1.5);
+  sharpen(transaction, std::array{inner}, 0);
+  EXPECT_EQ(solid.topology_hash(), smooth) << "nothing on the sheet outlives it";
+}
+
+TEST_F(Sharpen, RefusesValuesOutOfRangeAndDeadIds) {
+  EXPECT_EQ(code(EdgeId{1u}, 2.5), ErrorCode::refused) << "semi-sharp is taken";
+  EXPECT_EQ(code(EdgeId{1u}, -1), ErrorCode::bad_input);
+  EXPECT_EQ(code(EdgeId{1u}, 10.5), ErrorCode::bad_input);
+  EXPECT_EQ(code(VertexId{1u}, std::numeric_limits<double>::quiet_NaN()), ErrorCode::bad_input);
   EXPECT_EQ(code(EdgeId{1000u}, k_infinitely_sharp), ErrorCode::not_found);
 }
 
