@@ -43,7 +43,7 @@ std::array<std::vector<FaceId>, 2> two_regions(const Session& session, const Arg
   if (found == sets.end() || found->second.type != ElementType::faces)
     throw Error(
         ErrorCode::not_found,
-        fmt::format("there is no set of faces named '{}'; make one with `select faces … as {}`", name, name));
+        fmt::format("there is no set of faces named '{}'; make one with `select faces as {} where …`", name, name));
   return {faces, ids<FaceId>(found->second)};
 }
 

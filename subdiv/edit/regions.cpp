@@ -242,7 +242,7 @@ std::array<std::vector<FaceId>, 2> two_regions(const Solid& solid, std::span<con
   if (found.size() != 2)
     throw Error(ErrorCode::bad_input,
                 fmt::format("expected faces that make two patches, found {}; select two, or select the first, name "
-                            "the second with `select faces … as NAME` and add `with NAME`",
+                            "the second with `select faces as NAME where …` and add `with NAME`",
                             found.size()));
   return {std::move(found[0]), std::move(found[1])};
 }
