@@ -222,6 +222,11 @@ class Reader {
       if (!number) numbers_.fail(fmt::format("expected a node of $Nodes, found {}", node));
       nodes_.push_back(*number);
     }
+    // An entity in many groups, with many elements, would make much of a small file.
+    members_ += groups.size();
+    if (members_ > (std::size_t{1} << 20) + 8 * bytes_.size())
+      numbers_.fail("the physical groups have more members than a file of this size should need; save fewer groups",
+                    ErrorCode::limit_exceeded);
     if (!mesh_.add_element(tag, type, nodes_, groups))
       numbers_.fail(fmt::format("two elements have the tag {}; renumber one", tag));
   }
@@ -327,6 +332,7 @@ class Reader {
   std::set<std::string_view> seen_;
   std::set<std::pair<bool, std::string>> data_names_;
   std::vector<std::uint32_t> nodes_;
+  std::size_t members_ = 0;
   bool old_ = false, have_elements_ = false;
 };
 

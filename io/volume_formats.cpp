@@ -82,7 +82,7 @@ const std::vector<VolumeFormat>& table() {
        .versions = {"4.1", "2.2"},
        .read_words = "both versions and encodings, either byte order; lines are passed over"},
       {.ending = ".inp",
-       .name = "Abaqus, CalculiX",
+       .name = "Abaqus",
        .read = read_abaqus,
        .bytes = abaqus_text,
        .cells = "tetrahedra C3D4, hexahedra C3D8, wedges C3D6, pyramids C3D5 (which CalculiX lacks)",

@@ -294,6 +294,16 @@ TEST(Gmsh, ReadsBigEndianBinary) {
   EXPECT_NEAR(test::volume(mesh.cells, 0), 1.0 / 6, 1e-14);
 }
 
+TEST(Gmsh, GroupsThatGrowBeyondTheFileAreRefused) {
+  constexpr int k_many = 3000;
+  std::string file = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 3000";
+  for (int i = 1; i <= k_many; ++i) file += fmt::format(" {}", i);
+  file += " 0\n$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n";
+  file += "$Elements\n1 3000 1 3000\n3 1 4 3000\n";
+  for (int i = 1; i <= k_many; ++i) file += fmt::format("{} 1 2 3 4\n", i);
+  EXPECT_EQ(error_of([&] { (void)read_gmsh(file + "$EndElements\n", "t"); }).code(), ErrorCode::limit_exceeded);
+}
+
 TEST(Gmsh, RefusesCurvedCellsByName) {
   std::string file = k_old_gmsh;
   file.replace(file.find("5 4 2 7 1 10 20 40 50"), 21, "5 11 2 7 1 10 20 40 50 10 10 10 10 10 10");
