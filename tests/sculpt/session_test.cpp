@@ -293,6 +293,7 @@ const std::vector<BadLine> k_bad_lines = {
     {"set density z > 0", ErrorCode::bad_input, "condition"},
     {"set density 3 where z", ErrorCode::bad_input, "wants a condition", "input:1:21"},
     {"set density", ErrorCode::bad_input, "missing", "input:1:12"},
+    {"rules doo_sabin", ErrorCode::bad_input, "must be one of", "input:1:7"},
     {"sharpen 10 where x > 0.05 and x < 0.15", ErrorCode::unsupported, "inside the solid"},
     {"sharpen 11 where z > 0.1", ErrorCode::bad_input, "between 0 and 10", "input:1:9"},
     {"sharpen", ErrorCode::bad_input, "edges or vertices"},
