@@ -72,17 +72,16 @@ void check_closed(const ClosedSurface& surface) {
     return fmt::format("at {:.6g} {:.6g} {:.6g}", p.x(), p.y(), p.z());
   };
   if (open > 0)
-    throw Error(
-        ErrorCode::bad_topology,
-        fmt::format("the surface is open along {} edges, the first {}; expected a closed surface, which has "
-                    "an inside: close its holes and weld its points first",
-                    open, place(*first_open)),
-        place(*first_open));
+    throw Error(ErrorCode::bad_topology,
+                fmt::format("the surface is open along {} edges; expected a closed surface, which has "
+                            "an inside: close its holes and weld its points first",
+                            open),
+                place(*first_open));
   if (turned > 0)
     throw Error(ErrorCode::bad_topology,
-                fmt::format("polygons on the two sides of {} edges, the first {}, disagree about which side is "
+                fmt::format("polygons on the two sides of {} edges disagree about which side is "
                             "outside; make the orientation of the polygons agree first",
-                            turned, place(*first_turned)),
+                            turned),
                 place(*first_turned));
 }
 

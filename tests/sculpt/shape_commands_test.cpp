@@ -138,7 +138,7 @@ TEST(ShapeCommands, ImagesOfABentBodyAreBentTheOtherWay) {
 }
 
 TEST(ShapeCommands, FlipIsItsOwnInverse) {
-  TestSession test({"new wedge"});
+  TestSession test({"new box 2 1 1"});
   const Eigen::Matrix3Xd before = test.document().rest();
   test.run({"mirror normal 1 0 0 flip"});
   EXPECT_EQ(test.document().rest().row(0), -before.row(0));
