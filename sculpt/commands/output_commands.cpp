@@ -12,6 +12,7 @@
 #include "sculpt/picture.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
+#include "sculpt/surface_look.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -74,6 +75,12 @@ void save(Session& session, const Arguments& arguments) {
   if (level > session.document().state().level)
     throw Error(ErrorCode::bad_input, fmt::format("the solid is at level {}; write `levels {}` first",
                                                   session.document().state().level, level));
+  if (arguments.has("field")) {
+    if (level < session.document().state().level)
+      throw Error(ErrorCode::bad_input, "fields belong to the finest level; leave out level");
+    save_coloured(session.document(), path, arguments.word("field"));
+    return;
+  }
   for (const std::string& note : save_document(session.document(), path, level)) session.print(note);
 }
 
@@ -170,7 +177,8 @@ std::vector<Command> output_commands() {
        .run = expect},
       {.name = "save",
        .summary =
-           "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl), beneath --out.",
+           "Writes the solid with its fields (.vtu .vtk .mesh) or its boundary (.obj .ply .stl .off .glb .gltf), "
+           "beneath --out.",
        .parameters = {{.name = "file",
                        .type = ArgumentType::text,
                        .help = "beneath the folder given with --out",
@@ -180,7 +188,11 @@ std::vector<Command> output_commands() {
                        .type = ArgumentType::integer,
                        .help = "refinement level; else the finest; 0 is the cage",
                        .low = 0,
-                       .high = 8}},
+                       .high = 8},
+                      {.name = "field",
+                       .type = ArgumentType::word,
+                       .help = "colours of a .glb or .gltf",
+                       .choices = shown_field_names()}},
        .example = "save chair.vtu",
        .effect = Effect::output,
        .run = save},
