@@ -34,5 +34,14 @@ TEST(SurfaceLook, EverySurfaceFormatIsWrittenClosedAtEveryLevel) {
   EXPECT_EQ(session.folder().text_of("a.glb").substr(0, 4), "glTF");
 }
 
+TEST(SurfaceLook, AFieldColoursAGltfAndNothingElse) {
+  TestSession session({"new box 2 2 2", "levels 1", "set density 100 + 100*x"});
+  session.run({"save plain.gltf", "save coloured.gltf field density", "save coloured.glb field density"});
+  EXPECT_EQ(session.folder().text_of("plain.gltf").find("COLOR_0"), std::string::npos);
+  EXPECT_NE(session.folder().text_of("coloured.gltf").find("COLOR_0"), std::string::npos);
+  EXPECT_EQ(session.fault_of("save a.obj field density").code(), ErrorCode::unsupported);
+  EXPECT_EQ(session.fault_of("save a.glb level 0 field density").code(), ErrorCode::bad_input);
+}
+
 }  // namespace
 }  // namespace argil::sculpt

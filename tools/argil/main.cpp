@@ -113,7 +113,8 @@ int run(int argc, char** argv) {
 
   CLI::App* refine_app = app.add_subcommand("refine", "Refines a volume mesh by MacCracken–Joy subdivision");
   refine_app->add_option("mesh", first, mesh_endings)->required();
-  refine_app->add_option("out", second, "a volume mesh, or its boundary as .obj .ply .stl")->required();
+  refine_app->add_option("out", second, "a volume mesh, or its boundary as .obj .ply .stl .off .glb .gltf")
+      ->required();
   refine_app->add_option("--levels", levels, "how often")->required()->check(CLI::Range(0, 8));
   refine_app->add_flag("--limit", limit, "put the vertices where infinitely many refinements would");
   refine_app->add_option("--max-cells", max_cells, "refuse to make more cells")->capture_default_str();
@@ -132,7 +133,9 @@ int run(int argc, char** argv) {
   CLI::App* convert_app = app.add_subcommand("convert", "Writes a volume mesh, or its boundary, in another format");
   ConvertArguments converting;
   convert_app->add_option("in", converting.in, mesh_endings)->required();
-  convert_app->add_option("out", converting.out, mesh_endings + ", or .obj .ply .stl for the boundary")->required();
+  convert_app
+      ->add_option("out", converting.out, mesh_endings + ", or .obj .ply .stl .off .glb .gltf for the boundary")
+      ->required();
   convert_app->add_option("--encoding", converting.encoding, "ascii, binary (raw), compressed; see `argil formats`")
       ->check(CLI::IsMember({"ascii", "binary", "raw", "compressed"}));
   convert_app->add_option("--version", converting.version, "of .msh: 2.2 or 4.1");
