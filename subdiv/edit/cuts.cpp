@@ -37,7 +37,8 @@ void check_sphere(const NewCell& cell) {
   }
   if (const std::string fault = sphere_fault(loops); !fault.empty())
     throw Error(ErrorCode::bad_topology,
-                fmt::format("cell {} cannot be cut like this: {}", cell.source.value, fault),
+                fmt::format("cell {} cannot be cut like this: {}; cut it elsewhere, or choose other cells",
+                            cell.source.value, fault),
                 fmt::format("cell {}", cell.source.value));
 }
 

@@ -299,7 +299,7 @@ RandomEdit RandomEdits::next(const Document& document) {
   document_ = &document;
   const Solid& solid = document.solid();
   const std::size_t count = solid.cell_count();
-  if (count > 300) return pick(3) ? remove() : collapse();
+  if (count > 420) return pick(3) ? remove() : collapse();
   const double size = extent(document);
   switch (pick(30)) {
     case 0:

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "subdiv/error.h"
-#include "subdiv/maccracken_joy.h"
 #include "subdiv/primitives.h"
+#include "subdiv/refinement_step.h"
 #include "subdiv/validate.h"
 
 namespace argil::subdiv {

@@ -2,9 +2,9 @@
 
 #include "subdiv/build.h"
 #include "subdiv/edit/cuts.h"
-#include "subdiv/maccracken_joy.h"
 #include "subdiv/primitives.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/refinement_step.h"
 #include "tests/shapes/shapes.h"
 #include "tests/subdiv/edit/edited.h"
 
