@@ -18,6 +18,13 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
     throw Error(ErrorCode::bad_input,
                 fmt::format("the folder '{}' for results cannot be made ({}); choose another with --out",
                             options_.out.string(), failure.message()));
+  if (!options_.hash_trace.empty()) {
+    trace_.open(options_.hash_trace, std::ios::trunc);
+    if (!trace_)
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("the hash trace '{}' cannot be written; choose another file with --hash-trace",
+                              options_.hash_trace.string()));
+  }
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
     // What an earlier program left here may be all that there is of someone's work.
@@ -28,13 +35,6 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
                   fmt::format("the journal '{}' cannot be written; choose another folder with --out",
                               journal_path_.string()));
     journal_ << io::k_session_header << std::endl;
-  }
-  if (!options_.hash_trace.empty()) {
-    trace_.open(options_.hash_trace, std::ios::trunc);
-    if (!trace_)
-      throw Error(ErrorCode::bad_input,
-                  fmt::format("the hash trace '{}' cannot be written; choose another file with --hash-trace",
-                              options_.hash_trace.string()));
   }
 }
 

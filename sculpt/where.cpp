@@ -39,7 +39,8 @@ class ExpressionParser {
 
   Expression parse() {
     expression_.is_boolean_ = disjunction();
-    if (at_ < tokens_.size()) fail(at_, "expected an operator or the end of the expression");
+    if (at_ < tokens_.size())
+      fail(at_, "expected an operator or the end of the expression (other arguments stand before `where`)");
     auto& used = expression_.variables_;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());

@@ -13,40 +13,7 @@
 
 namespace argil::sculpt {
 
-namespace {
-
 using namespace subdiv;
-
-bool is_live(const Solid& solid, ElementType type, std::uint32_t id) {
-  switch (type) {
-    case ElementType::vertices:
-      return solid.is_live(VertexId{id});
-    case ElementType::edges:
-      return solid.is_live(EdgeId{id});
-    case ElementType::faces:
-      return solid.is_live(FaceId{id});
-    case ElementType::cells:
-      return solid.is_live(CellId{id});
-    case ElementType::nodes:
-      return false;
-  }
-  return false;
-}
-
-Selection surviving(const Selection& selection, const Solid& solid, const std::vector<std::uint32_t>& node_map) {
-  Selection result{selection.type, {}};
-  for (const std::uint32_t id : selection.ids) {
-    if (selection.type == ElementType::nodes) {
-      if (id < node_map.size() && node_map[id] != k_no_node) result.ids.push_back(node_map[id]);
-    } else if (is_live(solid, selection.type, id)) {
-      result.ids.push_back(id);
-    }
-  }
-  std::sort(result.ids.begin(), result.ids.end());
-  return result;
-}
-
-}  // namespace
 
 ElementType element_type(const std::string& name) {
   for (const ElementType type :
@@ -134,70 +101,9 @@ Selection acted_on_or_all(const Session& session, const Arguments& arguments, st
   const Selection& selected = *session.document().state().selection;
   const bool fits = std::find(types.begin(), types.end(), selected.type) != types.end();
   if (arguments.has("where") || (fits && !selected.ids.empty())) return acted_on(session, arguments, types);
-  return {types[0], matching(session.document(), types[0], nullptr)};
-}
-
-void edit_topology(
-    Session& session,
-    const std::function<void(Transaction&, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&)>& edit) {
-  require_solid(session);
-  Document& document = session.document();
-  State next = document.state();
-  const Refinement before = document.refinement();
-  Eigen::Matrix3Xd rest = *next.rest, present = next.motion->positions;
-  const Eigen::Index old_count = rest.cols();
-
-  Transaction transaction(*next.solid);
-  Selection selected = *next.selection;
-  edit(transaction, rest, present, selected);
-  const Solid& solid = *next.solid;
-  if (solid.cell_count() == 0)
-    throw Error(ErrorCode::bad_topology, "this would leave no cell; a solid has at least one");
-  if (refined_cell_count(solid, next.level) > document.limits.cells)
-    throw Error(ErrorCode::limit_exceeded,
-                fmt::format("this would make more than {} cells at level {}; lower the level or "
-                            "raise --max-cells",
-                            document.limits.cells, next.level));
-  const Refinement after = refine_to_level(solid, next.level, next.rules);
-  const std::vector<std::uint32_t> node_map = nodes_after_edit(before, after);
-  next.fields = fields_after_edit(*next.fields, node_map, after);
-
-  auto motion = std::make_shared<fem::BodyState>(*next.motion);
-  motion->velocities.conservativeResize(3, rest.cols());
-  motion->velocities.rightCols(rest.cols() - old_count).setZero();
-  motion->positions = std::move(present);
-  motion->previous_positions.resize(3, 0);
-  motion->previous_velocities.resize(3, 0);
-  motion->previous_step = 0;
-  next.motion = motion;
-  next.rest = std::make_shared<Eigen::Matrix3Xd>(std::move(rest));
-
-  auto pins = std::make_shared<Pins>(*next.pins);
-  std::erase_if(pins->control_points, [&](std::uint32_t v) { return !solid.is_live(VertexId{v}); });
-  for (SoftPin& pin : pins->nodes) pin.node = pin.node < node_map.size() ? node_map[pin.node] : k_no_node;
-  std::erase_if(pins->nodes, [](const SoftPin& pin) { return pin.node == k_no_node; });
-  std::sort(pins->nodes.begin(), pins->nodes.end(),
-            [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
-  next.pins = pins;
-
-  auto loads = std::make_shared<AppliedLoads>(*next.loads);
-  for (AppliedForce& force : loads->forces) {
-    const bool spread = !force.faces.empty();
-    std::erase_if(force.faces,
-                  [&](std::uint32_t f) { return !solid.is_live(FaceId{f}) || !solid.is_boundary(FaceId{f}); });
-    if (spread && force.faces.empty()) {
-      session.print("a force is gone with the faces that it acted on");
-      force.force.setConstant(std::nan(""));
-    }
-  }
-  std::erase_if(loads->forces, [](const AppliedForce& force) { return force.force.array().isNaN().any(); });
-  next.loads = loads;
-
-  next.selection = std::make_shared<Selection>(surviving(selected, solid, node_map));
-  auto sets = std::make_shared<std::map<std::string, Selection>>();
-  for (const auto& [name, set] : *next.sets) (*sets)[name] = surviving(set, solid, node_map);
-  next.sets = sets;
-  session.change(std::move(next), transaction.commit());
+  Selection all{types[0], matching(session.document(), types[0], nullptr)};
+  session.print(fmt::format("nothing is selected for this: it acts on all {}", count_of(all.ids.size(), all.type)));
+  return all;
 }
 
 void check_discretization(const Session& session) {

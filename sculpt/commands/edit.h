@@ -27,13 +27,6 @@ void require_solid(const Session& session);
 [[nodiscard]] Selection acted_on_or_all(const Session& session, const Arguments& arguments,
                                         std::span<const ElementType> types);
 
-/// Runs a topology edit: `edit` changes the solid through the transaction and the positions in `next` (rest and
-/// present positions grow with the vertices). Then fields, pins, loads and sets follow, and everything must still
-/// refine; if anything throws, the solid is as it was.
-void edit_topology(Session& session,
-                   const std::function<void(subdiv::Transaction&, Eigen::Matrix3Xd& rest, Eigen::Matrix3Xd& present,
-                                            Selection& selection)>& edit);
-
 /// Runs an edit of subdiv/edit: `edit` gets the rest positions, changes the solid, and says where what it made
 /// comes from; positions (rest and present), fields, pins, loads and named sets follow, and what it names to go on
 /// with is selected. If anything throws, the solid is as it was.

@@ -15,7 +15,7 @@ void sharpen_elements(Session& session, const Arguments& arguments) {
   constexpr ElementType types[] = {ElementType::edges, ElementType::vertices, ElementType::faces};
   const Selection selection = acted_on(session, arguments, types);
   const double value = arguments.number("value", k_infinitely_sharp);
-  edit_topology(session, [&](Transaction& transaction, Eigen::Matrix3Xd&, Eigen::Matrix3Xd&, Selection&) {
+  edit_solid(session, [&](Transaction& transaction, const Eigen::Matrix3Xd&) {
     const auto sharpen_each = [&]<class IdType>(IdType) {
       const std::vector<IdType> ids(selection.ids.begin(), selection.ids.end());
       sharpen(transaction, ids, value);
@@ -23,6 +23,7 @@ void sharpen_elements(Session& session, const Arguments& arguments) {
     if (selection.type == ElementType::edges) sharpen_each(EdgeId{});
     if (selection.type == ElementType::vertices) sharpen_each(VertexId{});
     if (selection.type == ElementType::faces) sharpen_each(FaceId{});
+    return Edit{};
   });
 }
 

@@ -33,8 +33,11 @@ TEST_P(Example, Runs) {
   EXPECT_TRUE(command->example.starts_with(command->name)) << command->example;
   if (command->effect != Effect::state) return;
   EXPECT_EQ(test.session().undo_depth(), depth + 1);
+  const std::uint64_t after = test.hash();
   test.run({"undo"});
-  EXPECT_EQ(test.session().document().state_hash(), before);
+  EXPECT_EQ(test.hash(), before);
+  test.run({"redo"});
+  EXPECT_EQ(test.hash(), after);
 }
 
 std::vector<std::string> names() {

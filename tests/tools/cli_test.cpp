@@ -70,7 +70,8 @@ TEST_F(Cli, HelpListsEverySessionCommandAndExplainsEach) {
     EXPECT_THAT(overview.out, HasSubstr("  " + std::string(name) + " "));
     const Finished help = argil({"help", name});
     EXPECT_EQ(help.status, 0) << name;
-    EXPECT_THAT(help.out, HasSubstr("Example:\n  " + std::string(name))) << name;
+    EXPECT_THAT(help.out, HasSubstr("\nExample:\n  ")) << name;
+    EXPECT_THAT(help.out, HasSubstr("\n  " + std::string(name))) << name;
   }
 }
 
