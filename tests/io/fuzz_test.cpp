@@ -14,11 +14,14 @@
 #include <functional>
 
 #include "encoders.h"
+#include "io/abaqus.h"
 #include "io/file_bytes.h"
+#include "io/gmsh.h"
 #include "io/image.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
+#include "io/ovm.h"
 #include "io/ply.h"
 #include "io/session_text.h"
 #include "io/stl.h"
@@ -184,6 +187,32 @@ Seeds vtu_seeds() {
           VtuEncoder({Place::appended_raw, true, false, true, true}).encode(mesh)};
 }
 
+VolumeMesh with_sets(VolumeMesh mesh) {
+  mesh.sets = {{"feet", SetKind::points, {0, 2, 3}}, {"seat", SetKind::cells, {1}}};
+  return mesh;
+}
+
+Seeds gmsh_seeds() {
+  const VolumeMesh mesh = with_sets(without_polyhedra());
+  Seeds seeds;
+  for (const Encoding encoding : {Encoding::ascii, Encoding::binary})
+    for (const char* version : {"2.2", "4.1"}) seeds.push_back(gmsh_bytes(mesh, {encoding, version}));
+  return seeds;
+}
+
+Seeds abaqus_seeds() {
+  return {
+      abaqus_text(with_sets(without_polyhedra())),
+      "*HEADING\n** a block\n*NODE, NSET=all\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, type=C3D4, "
+      "ELSET=body\n7, 1, 2,\n 3, 4\n*Nset, nset=feet, generate\n1, 3, 2\n*ELSET, ELSET=two\nbody, 7\n"};
+}
+
+Seeds ovm_seeds() {
+  VolumeMesh mesh = with_sets(with_small_fields());
+  mesh.cell_fields = {{"stress", 3, std::vector<double>(15, 1)}};
+  return {ovm_text(mesh), ovm_text(test::every_kind())};
+}
+
 Seeds obj_seeds() {
   return {obj_text(test::cube()), test::crowded_obj()};
 }
@@ -227,13 +256,16 @@ Seeds session_seeds() {
 }
 
 // Of text, a number of a byte and a blank becomes 8 bytes, and vectors double as they grow; a token of a session
-// takes about 100 bytes. Deflate packs 1032 bytes into one, which are 8 pixels of a bit each, held four times on
-// the way to 4 bytes.
+// takes about 100 bytes, and so do a number with its tag, or an edge of two digits with its two sides. Deflate
+// packs 1032 bytes into one, which are 8 pixels of a bit each, held four times on the way to 4 bytes.
 constexpr std::size_t k_deflate = 1032;
 const Reader k_readers[] = {
     {"Medit", ".mesh", medit_seeds, volume<read_medit>, 24},
     {"Vtk", ".vtk", vtk_seeds, volume<read_vtk>, 24},
     {"Vtu", ".vtu", vtu_seeds, volume<read_vtu>, 8 * k_deflate, 256 * 1024},
+    {"Gmsh", ".msh", gmsh_seeds, volume<read_gmsh>, 128},
+    {"Abaqus", ".inp", abaqus_seeds, volume<read_abaqus>, 128},
+    {"Ovm", ".ovm", ovm_seeds, volume<read_ovm>, 128},
     {"Obj", ".obj", obj_seeds, surface<read_obj>, 24},
     {"Ply", ".ply", ply_seeds, surface<read_ply>, 24},
     {"Stl", ".stl", stl_seeds, surface<read_stl>, 24},
