@@ -19,7 +19,7 @@ class TagNumbers {
   bool add(std::int64_t tag, std::uint32_t number) {
     ++count_;
     const auto index = static_cast<std::uint64_t>(tag);
-    if (index >= 8 * (count_ + 1024)) return find(tag) ? false : sparse_.emplace(tag, number).second;
+    if (index >= 8 * (count_ + 64)) return find(tag) ? false : sparse_.emplace(tag, number).second;
     if (index >= dense_.size()) dense_.resize(std::max<std::size_t>(index + 1, dense_.size() * 3 / 2), k_none);
     if (dense_[index] != k_none || sparse_.contains(tag)) return false;
     dense_[index] = number;
