@@ -31,6 +31,11 @@ Edit cut_face(Transaction& transaction, FaceId face, VertexId from, VertexId to)
   const Solid& solid = transaction.solid();
   if (!solid.is_live(face))
     throw Error(ErrorCode::not_found, fmt::format("there is no {}; select faces again", name(face)), name(face));
+  if (!solid.owner(face_use(face, false)).valid() && !solid.owner(face_use(face, true)).valid())
+    throw Error(ErrorCode::bad_topology,
+                fmt::format("{} belongs to no cell; choose a face of one (`remove dangling` sweeps such faces)",
+                            name(face)),
+                name(face));
   check_vertices(solid, from, to);
   Loop loop{solid.face_vertices(face).begin(), solid.face_vertices(face).end()};
   for (const VertexId v : {from, to})

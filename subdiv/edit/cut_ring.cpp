@@ -63,6 +63,13 @@ class RingCutter {
 
   Edit run(const std::vector<EdgeId>& edges) {
     for (const EdgeId e : edges)
+      if (edge_cells(solid(), e).empty())
+        throw Error(
+            ErrorCode::bad_topology,
+            fmt::format("edge {} belongs to no cell; choose an edge of one (`remove dangling` sweeps such edges)",
+                        e.value),
+            fmt::format("edge {}", e.value));
+    for (const EdgeId e : edges)
       if (!start_.count(e)) follow(e);
     for (const auto& [edge, start] : start_)
       cuts_.edges[edge] =

@@ -145,10 +145,12 @@ class Check {
 // Corners of cells at vertices and at edges, joined where the cells share a face there.
 struct Fans {
   explicit Fans(const Solid& solid) {
-    std::map<Pair, std::uint32_t> number;
-    const auto edge = [&](VertexId a, VertexId b) {
-      return number.try_emplace(ordered(a, b), static_cast<std::uint32_t>(number.size())).first->second;
-    };
+    for (const FaceId f : solid.faces()) {
+      const auto loop = solid.face_vertices(f);
+      for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(ordered(loop[i], loop[(i + 1) % loop.size()]));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const CellId c : solid.cells())
       for (const FaceUseId use : solid.cell_face_uses(c)) {
         const auto loop = loop_of(solid, use);
@@ -177,10 +179,19 @@ struct Fans {
     edge_count = static_cast<long long>(edge_fans.count());
     for (std::uint32_t i = 0; i < at_vertices.size(); ++i) vertex_fan.push_back(vertex_fans.find(i));
     for (std::uint32_t i = 0; i < at_edges.size(); ++i) edge_fan.push_back(edge_fans.find(i));
-    plain_edge_count = static_cast<long long>(number.size());
-    edge_number = std::move(number);
   }
 
+  std::uint32_t edge(VertexId a, VertexId b) const {
+    return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), ordered(a, b)) - edges.begin());
+  }
+  bool has_contacts() const {
+    std::size_t vertices = 0, used_edges = 0;
+    for (std::size_t i = 0; i < at_vertices.size(); ++i)
+      vertices += i == 0 || at_vertices[i].at != at_vertices[i - 1].at ? 1 : 0;
+    for (std::size_t i = 0; i < at_edges.size(); ++i)
+      used_edges += i == 0 || at_edges[i].at != at_edges[i - 1].at ? 1 : 0;
+    return vertex_count > static_cast<long long>(vertices) || edge_count > static_cast<long long>(used_edges);
+  }
   static std::uint32_t place(const std::vector<Corner>& corners, std::uint32_t at, CellId cell) {
     return static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), Corner{at, cell.value}) -
                                       corners.begin());
@@ -191,8 +202,8 @@ struct Fans {
 
   std::vector<Corner> at_vertices, at_edges;
   std::vector<std::uint32_t> vertex_fan, edge_fan;
-  std::map<Pair, std::uint32_t> edge_number;
-  long long vertex_count = 0, edge_count = 0, face_count = 0, plain_edge_count = 0;
+  std::vector<Pair> edges;  // ascending
+  long long vertex_count = 0, edge_count = 0, face_count = 0;
 };
 
 }  // namespace
@@ -204,6 +215,7 @@ std::vector<std::string> slow_check(const Solid& solid, bool dangling) {
 EulerRelation euler_relation(const Solid& solid) {
   const Fans fans(solid);
   EulerRelation relation;
+  relation.contacts = fans.has_contacts();
   relation.solid =
       fans.vertex_count - fans.edge_count + fans.face_count - static_cast<long long>(solid.cell_count());
 
@@ -217,7 +229,7 @@ EulerRelation euler_relation(const Solid& solid) {
     const FaceUseId use = solid.boundary_use(f);
     const auto loop = loop_of(solid, use);
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t number = fans.edge_number.at(ordered(loop[i], loop[(i + 1) % loop.size()]));
+      const std::uint32_t number = fans.edge(loop[i], loop[(i + 1) % loop.size()]);
       const std::uint32_t fan = fans.edge_fan[Fans::place(fans.at_edges, number, solid.owner(use))];
       sides[fan].push_back({corner_count + i, corner_count + (i + 1) % loop.size()});
       face_of_corner.push_back(face_count);
@@ -227,7 +239,7 @@ EulerRelation euler_relation(const Solid& solid) {
   }
   DisjointSets corners(corner_count), faces(face_count);
   for (const auto& [fan, runs] : sides) {
-    if (runs.size() != 2) return {relation.solid, relation.solid + 1000000, 0};  // no surface at all
+    if (runs.size() != 2) return {relation.solid, relation.solid + 1000000, 0, false};  // no surface at all
     corners.unite(static_cast<std::uint32_t>(runs[0].first), static_cast<std::uint32_t>(runs[1].second));
     corners.unite(static_cast<std::uint32_t>(runs[0].second), static_cast<std::uint32_t>(runs[1].first));
     faces.unite(static_cast<std::uint32_t>(face_of_corner[runs[0].first]),
@@ -239,13 +251,6 @@ EulerRelation euler_relation(const Solid& solid) {
   relation.genus = components - characteristic / 2;
   relation.boundary = components - relation.genus;
   return relation;
-}
-
-bool has_contacts(const Solid& solid) {
-  const Fans fans(solid);
-  std::set<std::uint32_t> vertices;
-  for (const Corner& corner : fans.at_vertices) vertices.insert(corner.at);
-  return fans.vertex_count > static_cast<long long>(vertices.size()) || fans.edge_count > fans.plain_edge_count;
 }
 
 }  // namespace argil::subdiv::test

@@ -17,10 +17,8 @@ std::vector<std::string> slow_check(const Solid& solid, bool dangling = false);
 struct EulerRelation {
   long long solid = 0, boundary = 0;
   long long genus = 0;
+  bool contacts = false;  // edges or vertices at which cells meet that share no face there
 };
 EulerRelation euler_relation(const Solid& solid);
-
-/// Edges or vertices at which cells meet that share no face there.
-bool has_contacts(const Solid& solid);
 
 }  // namespace argil::subdiv::test

@@ -21,9 +21,9 @@ TEST(SlowCheck, EveryShapeOfTheCatalogueIsWholeAndKeepsEulersRelation) {
 }
 
 TEST(SlowCheck, TellsWhereCellsTouchWithoutAFace) {
-  EXPECT_FALSE(has_contacts(box_grid(2, 2, 2, {1, 1, 1}).solid));
-  EXPECT_TRUE(has_contacts(build(cubes({{0, 0, 0}, {1, 1, 0}})).solid));
-  EXPECT_TRUE(has_contacts(build(cubes({{0, 0, 0}, {1, 1, 1}})).solid));
+  EXPECT_FALSE(euler_relation(box_grid(2, 2, 2, {1, 1, 1}).solid).contacts);
+  EXPECT_TRUE(euler_relation(build(cubes({{0, 0, 0}, {1, 1, 0}})).solid).contacts);
+  EXPECT_TRUE(euler_relation(build(cubes({{0, 0, 0}, {1, 1, 1}})).solid).contacts);
 }
 
 }  // namespace
