@@ -89,6 +89,28 @@ void save(Session& session, const Arguments& arguments) {
   for (const std::string& note : save_document(session.document(), path, level, options)) session.print(note);
 }
 
+// One picture of two halves: the control cage alone, and the scene.
+Picture with_cage_beside(Renderer& renderer, const Document& document, const Scene& scene, PictureOptions options) {
+  Scene cage = scene;
+  cage.draw_surface = false;
+  cage.legend.reset();
+  cage.cage_lines.clear();
+  cage.cage_points.clear();
+  add_cage(cage, document.solid(), document.positions(), true);
+  PictureOptions of_cage = options;
+  of_cage.width = options.width / 2;
+  options.width -= of_cage.width;
+  of_cage.contact_shadow = false;
+  const Picture left = renderer.render(cage, of_cage), right = renderer.render(scene, options);
+  Picture both{.width = left.width + right.width, .height = left.height, .rgba = {}, .cell_ids = {}};
+  for (int y = 0; y < both.height; ++y)
+    for (const Picture* half : {&left, &right}) {
+      const auto row = half->rgba.begin() + std::ptrdiff_t{4} * half->width * y;
+      both.rgba.insert(both.rgba.end(), row, row + std::ptrdiff_t{4} * half->width);
+    }
+  return both;
+}
+
 void render(Session& session, const Arguments& arguments) {
   require_solid(session);
   PictureRequest request;
@@ -139,7 +161,9 @@ void render(Session& session, const Arguments& arguments) {
     session.print(fmt::format("{} skipped: there is no renderer", name));
     return;
   }
-  const Picture picture = renderer->render(make_scene(session.document(), request), options);
+  const Scene scene = make_scene(session.document(), request);
+  const Picture picture = arguments.has("beside") ? with_cage_beside(*renderer, session.document(), scene, options)
+                                                  : renderer->render(scene, options);
   io::write_png(path, picture.width, picture.height, picture.rgba);
 }
 
@@ -230,6 +254,7 @@ std::vector<Command> output_commands() {
                        .help = "how",
                        .choices = {"solid", "wireframe", "boundary_wireframe"}},
                       {.name = "cage", .help = "with the control cage", .flag = true},
+                      {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
                       {.name = "plain", .help = "without arrows and pins", .flag = true},
                       {.name = "wire",
                        .type = ArgumentType::word,
