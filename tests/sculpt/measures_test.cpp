@@ -17,6 +17,19 @@ std::vector<std::string> bar(const std::string& space) {
       "set young_modulus 1e5",          "set density 500",       "pin where x < 0.01"};
 }
 
+TEST(MeasuresOfTopology, CountHandlesPartsAndPyramids) {
+  TestSession test({"new box 5 3 1 size 5 3 1"});
+  EXPECT_EQ(test.measure("genus"), 0);
+  test.run({"remove where y > 1 and y < 2 and (x > 1 and x < 2 or x > 3 and x < 4)"});
+  EXPECT_EQ(test.measure("genus"), 2);
+  EXPECT_EQ(test.measure("components"), 1);
+  test.run({"join pyramid at 9 0 0"});
+  EXPECT_EQ(test.measure("components"), 2);
+  test.run({"levels 1"});
+  EXPECT_EQ(test.measure("pyramids"), 8);  // the apex has four edges: a cell of eight faces
+  EXPECT_EQ(test.measure("elements"), 13 * 8 + 4 + 8);
+}
+
 class Measures : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Measures, testing::Values("default", "cubic"));
 

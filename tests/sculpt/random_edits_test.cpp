@@ -91,10 +91,11 @@ std::string kind_of(const std::string& message) {
 }
 
 // Some edits of one solid. Returns false if a check failed.
-void edit_one_solid(std::uint32_t seed, int count, Tally& tally) {
+void edit_one_solid(std::uint32_t seed, int count, Tally& tally, const std::vector<std::string>& more = {}) {
   RandomEdits edits(seed);
   TestSession test;
   test.run({edits.beginning()});
+  test.run(more);
   std::uint64_t hash = test.hash();
   for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
     const RandomEdit edit = edits.next(test.document());
@@ -129,6 +130,19 @@ void edit_one_solid(std::uint32_t seed, int count, Tally& tally) {
     EXPECT_EQ(test.hash(), after) << place;
     hash = after;
   }
+}
+
+// Above the control solid fields live on the refined nodes, and what cannot be refined is refused.
+TEST(RandomEdits, AboveTheControlSolidToo) {
+  Tally tally;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed)
+    edit_one_solid(seed, 25, tally,
+                   {"levels 1", "set density 300 + 100*x", "pin where z < 0.01", "select cells as all"});
+  const Tally::Tool total = tally.total();
+  fmt::print("{} of {} edits accepted\n", total.accepted, total.tried);
+  for (const auto& [message, place] : tally.without_remedy)
+    ADD_FAILURE() << place << "\nsays not what to do: " << message;
+  EXPECT_GE(3 * total.accepted, total.tried);
 }
 
 long asked(const char* name, long otherwise) {

@@ -4,6 +4,7 @@
 
 #include "subdiv/boundary.h"
 #include "subdiv/limit.h"
+#include "subdiv/refinement.h"
 #include "subdiv/refinement_step.h"
 #include "tests/shapes/sharp_shapes.h"
 #include "tests/subdiv/opensubdiv_oracle.h"
@@ -129,6 +130,25 @@ TEST(OpenSubdiv, SemiSharpBoundaryRefinesAsItSays) {
     compared += compare_boundary(shape, expected, surface, 1e-6, solid, positions, name);
   }
   EXPECT_GE(compared, 20000U);
+}
+
+// Every shape of the catalogue to level 4, with its own infinite creases and corners and with semi-sharp ones. (In a
+// program of its own under ctest, and spared under the sanitizers.)
+TEST(OpenSubdivSlow, EveryShapeRefinesAsItSaysToLevelFour) {
+  std::size_t compared = 0;
+  for (const auto& shapes : {catalogue(), semi_sharp_shapes()})
+    for (const Shape& shape : shapes) {
+      SCOPED_TRACE(shape.name);
+      const BoundarySurface surface = boundary_surface(shape.solid);
+      if (!is_manifold(surface) || refined_cell_count(shape.solid, 4) > 300000) continue;
+      const OpenSubdivResult expected = oracle(shape, surface, 4);
+      std::map<VertexId, int> name;
+      Solid solid;
+      Eigen::Matrix3Xd positions;
+      compared += compare_boundary(shape, expected, surface, 1e-6, solid, positions, name);
+    }
+  std::printf("%zu boundary vertices compared\n", compared);
+  EXPECT_GE(compared, 100000U);
 }
 
 // Each sheet as an open surface of its own; where sheets cross it has creases.
