@@ -132,8 +132,8 @@ TEST(OpenSubdiv, SemiSharpBoundaryRefinesAsItSays) {
   EXPECT_GE(compared, 20000U);
 }
 
-// Every shape of the catalogue to level 4, with its own infinite creases and corners and with semi-sharp ones. (In a
-// program of its own under ctest, and spared under the sanitizers.)
+// Every shape of the catalogue to level 4, with its own infinite creases and corners and with semi-sharp ones. (In
+// a program of its own under ctest, and spared under the sanitizers.)
 TEST(OpenSubdivSlow, EveryShapeRefinesAsItSaysToLevelFour) {
   std::size_t compared = 0;
   for (const auto& shapes : {catalogue(), semi_sharp_shapes()})
