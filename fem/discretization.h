@@ -27,6 +27,9 @@ struct NodalFields {
   Eigen::VectorXd poisson_ratio;
   Eigen::VectorXd density;  // [kg/m³]
   Eigen::VectorXd damping;  // [1/s]
+  // Zero where empty:
+  Eigen::VectorXd stiffness_damping = {};  // [s]
+  Eigen::VectorXd prestress = {};          // [Pa]
 };
 
 struct DiscretizationOptions {

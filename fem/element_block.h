@@ -27,6 +27,9 @@ struct ElementBlock {
   std::vector<double> mu, lambda;                       // [Pa]; both 0 where the point gives no stiffness
   std::vector<double> density;                          // [kg/m³]
   std::vector<double> damping;                          // [1/s]
+  // Empty where they are zero everywhere:
+  std::vector<double> stiffness_damping;  // Rayleigh: viscous stress = this · rate of elastic stress [s]
+  std::vector<double> prestress;          // initial second Piola–Kirchhoff stress, the same in all directions [Pa]
 
   std::size_t element_count() const { return origins.size(); }
   std::size_t point_index(std::size_t element, int point) const {

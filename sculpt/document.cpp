@@ -14,10 +14,12 @@ const std::array<FieldInfo, k_field_count>& field_table() {
   // Defaults of a soft modelling clay-like rubber.
   static const std::array<FieldInfo, k_field_count> table{{
       {FieldName::young_modulus, "young_modulus", "Pa", 1e5, 1e-3, 1e13},
-      {FieldName::poisson_ratio, "poisson_ratio", "", 0.3, -0.9, 0.499},
+      {FieldName::poisson_ratio, "poisson_ratio", "", 0.3, -0.9, 0.4999},
       {FieldName::density, "density", "kg/m^3", 1000, 1e-6, 1e6},
       {FieldName::damping, "damping", "1/s", 0, 0, 1e9},
       {FieldName::mask, "mask", "", 0, 0, 1},
+      {FieldName::stiffness_damping, "stiffness_damping", "s", 0, 0, 1e6},
+      {FieldName::prestress, "prestress", "Pa", 0, -1e12, 1e12},
   }};
   return table;
 }
@@ -54,7 +56,8 @@ const char* word(subdiv::RuleSet rules) {
 namespace {
 
 fem::NodalFields nodal_fields(const Fields& f) {
-  return {f[FieldName::young_modulus], f[FieldName::poisson_ratio], f[FieldName::density], f[FieldName::damping]};
+  return {f[FieldName::young_modulus], f[FieldName::poisson_ratio],     f[FieldName::density],
+          f[FieldName::damping],       f[FieldName::stiffness_damping], f[FieldName::prestress]};
 }
 
 }  // namespace
@@ -73,7 +76,7 @@ struct Document::Derived {
   std::unique_ptr<fem::Discretization> discretization;
   std::unique_ptr<fem::ShownElements> shown_elements;
 
-  std::string model_name;
+  fem::ModelChoice model_choice;
   std::unique_ptr<fem::ForceModel> model;
 
   std::shared_ptr<const Pins> integrator_pins;
@@ -149,11 +152,10 @@ const fem::Discretization& Document::discretization() const {
 const fem::ForceModel& Document::model() const {
   Derived& d = *derived_;
   const fem::Discretization& discretized = discretization();
-  if (!d.model || d.model_name != state_.model) {
+  if (!d.model || d.model_choice != state_.model) {
     d.integrator.reset();
-    d.model = state_.model == "linear" ? fem::make_linear(discretized.blocks, discretized.rest_nodes)
-                                       : fem::make_corotational(discretized.blocks, discretized.rest_nodes);
-    d.model_name = state_.model;
+    d.model = fem::make_model(state_.model, discretized.blocks, discretized.rest_nodes);
+    d.model_choice = state_.model;
   }
   return *d.model;
 }
@@ -260,7 +262,7 @@ std::uint64_t Document::state_hash() const {
   hash.add(static_cast<std::uint64_t>(s.level));
   hash.add(static_cast<std::uint64_t>(s.space));
   hash.add(static_cast<std::uint64_t>(s.split));
-  hash.add(std::string_view(s.model));
+  hash.add(std::string_view(s.model.name));
   hash.add(static_cast<std::uint64_t>(s.method));
   hash.add(static_cast<std::uint64_t>(s.newton_cap));
   hash.add(s.time_step);
@@ -271,6 +273,7 @@ std::uint64_t Document::state_hash() const {
   hash.add(s.tool.largest_force);
   hash.add(std::string_view(s.tool.falloff));
   if (s.rules != subdiv::RuleSet::maccracken_joy) hash.add(std::string_view(word(s.rules)));
+  if (s.model.formulation != fem::Formulation::plain) hash.add(fem::word(s.model.formulation));
   return hash.value();
 }
 

@@ -13,13 +13,14 @@
 #include "fem/discretization.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/measure/shown_elements.h"
+#include "fem/models/model_table.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
 
 namespace argil::sculpt {
 
-enum class FieldName { young_modulus, poisson_ratio, density, damping, mask };
-inline constexpr int k_field_count = 5;
+enum class FieldName { young_modulus, poisson_ratio, density, damping, mask, stiffness_damping, prestress };
+inline constexpr int k_field_count = 7;
 struct FieldInfo {
   FieldName name;
   const char* word;
@@ -93,7 +94,7 @@ struct State {
   subdiv::RuleSet rules = subdiv::RuleSet::maccracken_joy;
   fem::Space space = fem::Space::standard;
   int split = 1;
-  std::string model = "corotational";
+  fem::ModelChoice model;
   fem::Method method = fem::Method::bdf2;
   int newton_cap = 3;
   double time_step = 1.0 / 60;  // [s]

@@ -32,7 +32,9 @@ std::string summary_json(const Session& session, const std::string& name, int th
   json["space"] = document.state().space == fem::Space::cubic ? "cubic" : "default";
   json["levels"] = document.state().level;
   json["rules"] = word(document.state().rules);
-  json["model"] = document.state().model;
+  json["model"] = document.state().model.name;
+  json["formulation"] = fem::word(document.state().model.formulation);
+  json["integrator"] = fem::method_kind(document.state().method).name;
   json["control_cells"] = document.solid().cell_count();
   // A solid that was never simulated, and cannot be, still has counts.
   try {

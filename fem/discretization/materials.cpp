@@ -25,6 +25,20 @@ std::vector<double> corner_weights(const ElementKind& kind) {
   return result;
 }
 
+/// Values at the points of a field that may be absent: empty if it is zero.
+std::vector<double> interpolate(const ElementBlock& block, const std::vector<std::uint32_t>& corners,
+                                const std::vector<double>& weights, const Eigen::VectorXd& samples) {
+  if (samples.size() == 0 || samples.isZero(0)) return {};
+  const auto corner_count = static_cast<std::size_t>(field_corner_count(*block.kind));
+  const auto points = static_cast<std::size_t>(block.kind->point_count);
+  std::vector<double> result(block.element_count() * points, 0.0);
+  for (std::size_t e = 0; e < block.element_count(); ++e)
+    for (std::size_t q = 0; q < points; ++q)
+      for (std::size_t c = 0; c < corner_count; ++c)
+        result[e * points + q] += weights[q * corner_count + c] * samples[corners[e * corner_count + c]];
+  return result;
+}
+
 void interpolate(ElementBlock& block, const std::vector<std::uint32_t>& corners, const NodalFields& samples) {
   const auto corner_count = static_cast<std::size_t>(field_corner_count(*block.kind));
   const auto points = static_cast<std::size_t>(block.kind->point_count);
@@ -52,6 +66,8 @@ void interpolate(ElementBlock& block, const std::vector<std::uint32_t>& corners,
       block.density[i] = density;
       block.damping[i] = damping;
     }
+  block.stiffness_damping = interpolate(block, corners, weights, samples.stiffness_damping);
+  block.prestress = interpolate(block, corners, weights, samples.prestress);
 }
 
 double element_volume(const ElementBlock& block, std::size_t element) {
@@ -89,8 +105,12 @@ int field_corner_count(const ElementKind& kind) {
 
 void set_materials(Discretization& discretization, const NodalFields& fields) {
   const subdiv::Stencils& rows = discretization.field_samples.rows;
-  const NodalFields samples{subdiv::apply(rows, fields.young_modulus), subdiv::apply(rows, fields.poisson_ratio),
-                            subdiv::apply(rows, fields.density), subdiv::apply(rows, fields.damping)};
+  const auto sampled = [&](const Eigen::VectorXd& values) {
+    return values.size() > 0 ? subdiv::apply(rows, values) : Eigen::VectorXd();
+  };
+  const NodalFields samples{sampled(fields.young_modulus),     sampled(fields.poisson_ratio),
+                            sampled(fields.density),           sampled(fields.damping),
+                            sampled(fields.stiffness_damping), sampled(fields.prestress)};
   BlockAccumulator mass(1), damping(1);
   ElementReduction element(discretization.nodes.rows);
   Eigen::MatrixXd element_mass, element_damping, reduced;

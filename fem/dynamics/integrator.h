@@ -7,12 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "fem/dynamics/method.h"
 #include "fem/solvers/preconditioner.h"
 #include "fem/system.h"
 
 namespace argil::fem {
-
-enum class Method { bdf2, implicit_euler };
 
 struct StepOptions {
   Method method = Method::bdf2;

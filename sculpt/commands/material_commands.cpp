@@ -90,7 +90,12 @@ void paint(Session& session, const Arguments& arguments) {
 void set_model(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
-  next.model = arguments.word("model");
+  next.model.name = arguments.word("model");
+  next.model.formulation = fem::Formulation::plain;
+  if (arguments.has("formulation"))
+    for (const fem::Formulation f : fem::k_formulations)
+      if (arguments.word("formulation") == fem::word(f)) next.model.formulation = f;
+  fem::check_model(next.model);
   session.change(std::move(next));
 }
 
@@ -98,10 +103,22 @@ void set_model(Session& session, const Arguments& arguments) {
 
 std::vector<Command> material_commands() {
   std::vector<std::string> names;
-  for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
+  std::string field_help;
+  for (const FieldInfo& info : field_table()) {
+    names.emplace_back(info.word);
+    const std::string unit = info.unit;
+    field_help += (field_help.empty() ? "" : ", ") + names.back() + (unit.empty() ? "" : " [" + unit + "]");
+  }
+  std::vector<std::string> models, formulations;
+  std::string model_summaries;
+  for (const fem::ModelKind& kind : fem::model_table()) {
+    models.emplace_back(kind.name);
+    model_summaries += (model_summaries.empty() ? "" : " ") + fmt::format("{}: {}.", kind.name, kind.summary);
+  }
+  for (const fem::Formulation f : fem::k_formulations) formulations.emplace_back(fem::word(f));
   const Parameter field{.name = "field",
                         .type = ArgumentType::word,
-                        .help = "young_modulus [Pa], poisson_ratio, density [kg/m^3], damping [1/s], mask",
+                        .help = field_help,
                         .positional = true,
                         .required = true,
                         .choices = names};
@@ -136,14 +153,18 @@ std::vector<Command> material_commands() {
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .run = paint},
       {.name = "model",
-       .summary = "The force model: corotational (default), or linear elasticity in fixed axes, its reference for "
-                  "small strain.",
+       .summary = "The force model. " + model_summaries,
        .parameters = {{.name = "model",
                        .type = ArgumentType::word,
                        .help = "the model",
                        .positional = true,
                        .required = true,
-                       .choices = {"corotational", "linear"}}},
+                       .choices = models},
+                      {.name = "formulation",
+                       .type = ArgumentType::word,
+                       .help = "of hexahedra: plain, b_bar (against locking near ν = 0.5), incompatible_modes (for "
+                               "bending); a model names those that it has",
+                       .choices = formulations}},
        .example = "model linear",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .run = set_model},

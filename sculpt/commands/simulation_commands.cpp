@@ -118,7 +118,7 @@ void apply_force(Session& session, const Arguments& arguments) {
 void set_integrator(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
-  next.method = arguments.word("method") == "bdf2" ? fem::Method::bdf2 : fem::Method::implicit_euler;
+  next.method = fem::method_by_name(arguments.word("method")).method;
   next.newton_cap = static_cast<int>(arguments.integer("newton", next.newton_cap));
   session.change(std::move(next));
 }
@@ -180,6 +180,12 @@ void commit(Session& session, const Arguments&) {
 }  // namespace
 
 std::vector<Command> simulation_commands() {
+  std::vector<std::string> methods;
+  std::string method_summaries;
+  for (const fem::MethodKind& kind : fem::method_table()) {
+    methods.emplace_back(kind.name);
+    method_summaries += (method_summaries.empty() ? "" : " ") + fmt::format("{}: {}.", kind.name, kind.summary);
+  }
   return {
       {.name = "pin",
        .summary = "Holds the selected control points exactly where they are, or the selected nodes by springs.",
@@ -227,13 +233,13 @@ std::vector<Command> simulation_commands() {
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = apply_force},
       {.name = "integrator",
-       .summary = "How time advances: BDF2 (second order, default) or implicit Euler.",
+       .summary = "How time advances. " + method_summaries,
        .parameters = {{.name = "method",
                        .type = ArgumentType::word,
                        .help = "the method",
                        .positional = true,
                        .required = true,
-                       .choices = {"bdf2", "implicit_euler"}},
+                       .choices = methods},
                       {.name = "newton",
                        .type = ArgumentType::integer,
                        .help = "most Newton iterations a step",

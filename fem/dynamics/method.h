@@ -1,0 +1,35 @@
+#pragma once
+// The methods by which time advances (METHODS §5), in one table that sessions, charts and help read.
+
+#include <span>
+#include <string_view>
+
+namespace argil::fem {
+
+enum class Method {
+  bdf2,
+  implicit_euler,
+  semi_implicit,
+  generalised_alpha,
+  central_difference,
+  forward_euler,
+  symplectic_euler,
+  velocity_verlet,
+  midpoint
+};
+
+struct MethodKind {
+  Method method;
+  std::string_view name;     // as in a session
+  std::string_view summary;  // what it is and where it fails, without a full stop
+  int order = 1;             // of the error at the end of a fixed time
+  bool is_implicit = true;   // solves with the stiffness
+};
+
+/// Those that an Integrator has; the default first.
+[[nodiscard]] std::span<const MethodKind> method_table();
+/// @throws Error (not_found) that lists the names.
+[[nodiscard]] const MethodKind& method_by_name(std::string_view name);
+[[nodiscard]] const MethodKind& method_kind(Method method);
+
+}  // namespace argil::fem

@@ -1,0 +1,59 @@
+#include "fem/models/model_table.h"
+
+#include <fmt/format.h>
+
+#include "subdiv/error.h"
+
+namespace argil::fem {
+
+std::string_view word(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::plain:
+      return "plain";
+    case Formulation::b_bar:
+      return "b_bar";
+    case Formulation::incompatible_modes:
+      return "incompatible_modes";
+  }
+  return "";
+}
+
+std::span<const ModelKind> model_table() {
+  static constexpr ModelKind table[] = {
+      {.name = "corotational",
+       .summary = "the default, linear in the strain that is left when the rotation is taken off",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_corotational(blocks, rest_nodes); }},
+      {.name = "linear",
+       .summary = "small strain in fixed axes, wrong under rotation",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_linear(blocks, rest_nodes); }},
+  };
+  return table;
+}
+
+const ModelKind& model_by_name(std::string_view name) {
+  std::string names;
+  for (const ModelKind& kind : model_table()) {
+    if (kind.name == name) return kind;
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw Error(ErrorCode::not_found, fmt::format("'{}' is not a force model; there are {}", name, names));
+}
+
+void check_model(const ModelChoice& choice) {
+  const ModelKind& kind = model_by_name(choice.name);
+  const bool lacks = (choice.formulation == Formulation::b_bar && !kind.has_b_bar) ||
+                     (choice.formulation == Formulation::incompatible_modes && !kind.has_incompatible_modes);
+  if (lacks)
+    throw Error(ErrorCode::unsupported, fmt::format("the model {} has no formulation {}; leave the formulation out",
+                                                    kind.name, word(choice.formulation)));
+}
+
+std::unique_ptr<ForceModel> make_model(const ModelChoice& choice, std::span<const ElementBlock> blocks,
+                                       const Eigen::Matrix3Xd& rest_nodes) {
+  check_model(choice);
+  return model_by_name(choice.name).make(blocks, rest_nodes, choice.formulation);
+}
+
+}  // namespace argil::fem
