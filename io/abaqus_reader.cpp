@@ -9,6 +9,7 @@
 #include "io/abaqus_lines.h"
 #include "io/tag_numbers.h"
 #include "subdiv/cell_kinds.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::io {
 namespace {
@@ -336,8 +337,7 @@ class Reader {
       add_line(sets[at], line, known, sets);
     }
     for (SetLines& set : sets) {
-      std::sort(set.ids.begin(), set.ids.end());
-      set.ids.erase(std::unique(set.ids.begin(), set.ids.end()), set.ids.end());
+      subdiv::sort_unique(set.ids);
       mesh_.sets.push_back({set.name, set.kind, std::move(set.ids)});
     }
   }

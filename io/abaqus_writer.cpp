@@ -5,6 +5,7 @@
 
 #include "io/abaqus.h"
 #include "io/text_cursor.h"
+#include "io/vtk_cells.h"
 #include "subdiv/cell_kinds.h"
 
 namespace argil::io {
@@ -12,16 +13,11 @@ namespace {
 
 using subdiv::CellKind;
 
-struct ElementBlock {
-  std::string_view type;
-  CellKind kind;
-  std::array<std::size_t, 8> vtk_from_abaqus;
-};
 constexpr std::array k_blocks{
-    ElementBlock{"C3D4", CellKind::tetrahedron, {0, 1, 2, 3}},
-    ElementBlock{"C3D5", CellKind::pyramid, {0, 1, 2, 3, 4}},
-    ElementBlock{"C3D6", CellKind::wedge, {0, 2, 1, 3, 5, 4}},
-    ElementBlock{"C3D8", CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}},
+    NamedCellKind{"C3D4", CellKind::tetrahedron, {0, 1, 2, 3}},
+    NamedCellKind{"C3D5", CellKind::pyramid, {0, 1, 2, 3, 4}},
+    NamedCellKind{"C3D6", CellKind::wedge, {0, 2, 1, 3, 5, 4}},
+    NamedCellKind{"C3D8", CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}},
 };
 
 void append_set(std::string& text, const NamedSet& set) {
@@ -55,15 +51,15 @@ std::string abaqus_text(const VolumeMesh& mesh, const WriteOptions&) {
     }
     text += '\n';
   }
-  for (const ElementBlock& block : k_blocks) {
+  for (const NamedCellKind& block : k_blocks) {
     if (std::find(cells.kinds.begin(), cells.kinds.end(), block.kind) == cells.kinds.end()) continue;
-    fmt::format_to(std::back_inserter(text), "*ELEMENT, TYPE={}\n", block.type);
+    fmt::format_to(std::back_inserter(text), "*ELEMENT, TYPE={}\n", block.word);
     for (std::size_t c = 0; c < cells.cell_count(); ++c) {
       if (cells.kinds[c] != block.kind) continue;
       fmt::format_to(std::back_inserter(text), "{}", c + 1);
       for (std::size_t i = 0; i < vertex_count(block.kind); ++i)
         fmt::format_to(std::back_inserter(text), ", {}",
-                       std::uint64_t{cells.connectivity[cells.offsets[c] + block.vtk_from_abaqus[i]]} + 1);
+                       std::uint64_t{cells.connectivity[cells.offsets[c] + block.vtk_from_file[i]]} + 1);
       text += '\n';
     }
   }

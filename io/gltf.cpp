@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "io/surface_sides.h"
 #include "subdiv/disjoint_sets.h"
 #include "subdiv/error.h"
 
@@ -35,39 +36,25 @@ std::vector<Eigen::Vector3d> area_normals(const SurfaceMesh& mesh) {
   return normals;
 }
 
-struct Side {
-  std::uint32_t from, to;
-  std::uint32_t face, corner, next_corner;
-  bool operator<(const Side& other) const {
-    return std::tie(from, to, corner) < std::tie(other.from, other.to, other.corner);
-  }
-};
+bool comes_before(const SurfaceSide& a, const SurfaceSide& b) {
+  return std::tie(a.from, a.to, a.corner) < std::tie(b.from, b.to, b.corner);
+}
 
 // Unites the corners of two faces at both ends of each smooth edge.
 subdiv::DisjointSets smooth_corners(const SurfaceMesh& mesh, const SurfaceLook& look,
                                     const std::vector<Eigen::Vector3d>& normals) {
-  std::vector<Side> sides;
-  sides.reserve(mesh.corners.size());
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const std::size_t j = (i + 1) % face.size();
-      sides.push_back({face[i], face[j], static_cast<std::uint32_t>(f),
-                       static_cast<std::uint32_t>(mesh.offsets[f] + i),
-                       static_cast<std::uint32_t>(mesh.offsets[f] + j)});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
+  std::vector<SurfaceSide> sides = surface_sides(mesh);
+  std::sort(sides.begin(), sides.end(), comes_before);
   const double cosine = std::cos(look.crease_angle * std::numbers::pi / 180);
   const auto range_of = [&](std::uint32_t from, std::uint32_t to) {
-    const auto first = std::lower_bound(sides.begin(), sides.end(), Side{from, to, 0, 0, 0});
+    const auto first = std::lower_bound(sides.begin(), sides.end(), SurfaceSide{from, to, 0, 0, 0}, comes_before);
     auto last = first;
     while (last != sides.end() && last->from == from && last->to == to) ++last;
     return std::pair(first, last);
   };
   const auto is_sharp = [&](std::uint32_t corner) { return !look.sharp.empty() && look.sharp[corner] != 0; };
   subdiv::DisjointSets corners(mesh.corners.size());
-  for (const Side& side : sides) {
+  for (const SurfaceSide& side : sides) {
     if (side.from > side.to) continue;
     const auto [first, last] = range_of(side.from, side.to);
     const auto [back, back_end] = range_of(side.to, side.from);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "subdiv/cell_kinds.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::io {
 namespace {
@@ -15,8 +16,7 @@ constexpr SetKind k_kinds[] = {SetKind::points, SetKind::points, SetKind::faces,
 constexpr const char* k_dimension_names[] = {"point", "line", "surface", "volume"};
 
 void sort_unique(std::vector<std::uint32_t>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  subdiv::sort_unique(ids);
 }
 
 }  // namespace

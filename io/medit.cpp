@@ -20,21 +20,16 @@ using subdiv::CellKind;
 constexpr std::string_view k_reference = "reference";
 constexpr std::int64_t k_largest_reference = std::int64_t{1} << 53;
 
-struct CellSection {
-  std::string_view keyword;
-  CellKind kind;
-  std::array<std::size_t, 8> vtk_from_medit;
-};
 constexpr std::array k_cell_sections{
-    CellSection{"Tetrahedra", CellKind::tetrahedron, {0, 1, 2, 3}},
-    CellSection{"Hexahedra", CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}},
-    CellSection{"Prisms", CellKind::wedge, {0, 2, 1, 3, 5, 4}},
-    CellSection{"Pyramids", CellKind::pyramid, {0, 1, 2, 3, 4}},
+    NamedCellKind{"Tetrahedra", CellKind::tetrahedron, {0, 1, 2, 3}},
+    NamedCellKind{"Hexahedra", CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}},
+    NamedCellKind{"Prisms", CellKind::wedge, {0, 2, 1, 3, 5, 4}},
+    NamedCellKind{"Pyramids", CellKind::pyramid, {0, 1, 2, 3, 4}},
 };
 
 // Sections that say nothing about the solid cells: numbers a line.
 struct OtherSection {
-  std::string_view keyword;
+  std::string_view word;
   std::size_t numbers;
 };
 constexpr std::array k_passed_over{OtherSection{"Edges", 3},
@@ -108,8 +103,7 @@ class Reader {
 
   template <class Table>
   static const typename Table::value_type* find(const Table& table, std::string_view keyword) {
-    const auto at =
-        std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.keyword == keyword; });
+    const auto at = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.word == keyword; });
     return at == table.end() ? nullptr : &*at;
   }
 
@@ -126,7 +120,7 @@ class Reader {
     }
   }
 
-  void read_cells(const CellSection& section) {
+  void read_cells(const NamedCellKind& section) {
     if (!seen_.contains("Vertices")) cursor_.fail("expected the section Vertices before the cells");
     const std::size_t corners = vertex_count(section.kind);
     const std::size_t count =
@@ -137,7 +131,7 @@ class Reader {
       cells.connectivity.resize(first + corners);
       for (std::size_t i = 0; i < corners; ++i) {
         const auto vertex = cursor_.integer("a vertex", 1, cells.positions.cols());
-        cells.connectivity[first + section.vtk_from_medit[i]] = static_cast<std::uint32_t>(vertex - 1);
+        cells.connectivity[first + section.vtk_from_file[i]] = static_cast<std::uint32_t>(vertex - 1);
       }
       cells.kinds.push_back(section.kind);
       cells.offsets.push_back(cells.connectivity.size());
@@ -216,14 +210,14 @@ std::string medit_text(const VolumeMesh& mesh, const WriteOptions&) {
     }
     append_reference(text, vertex_references, static_cast<std::size_t>(v));
   }
-  for (const CellSection& section : k_cell_sections) {
+  for (const NamedCellKind& section : k_cell_sections) {
     const auto count = std::count(cells.kinds.begin(), cells.kinds.end(), section.kind);
     if (count == 0) continue;
-    fmt::format_to(std::back_inserter(text), "{}\n{}\n", section.keyword, count);
+    fmt::format_to(std::back_inserter(text), "{}\n{}\n", section.word, count);
     for (std::size_t c = 0; c < cells.cell_count(); ++c) {
       if (cells.kinds[c] != section.kind) continue;
       for (std::size_t i = 0; i < vertex_count(section.kind); ++i) {
-        const auto vertex = cells.connectivity[cells.offsets[c] + section.vtk_from_medit[i]];
+        const auto vertex = cells.connectivity[cells.offsets[c] + section.vtk_from_file[i]];
         fmt::format_to(std::back_inserter(text), "{}{}", i > 0 ? " " : "", std::uint64_t{vertex} + 1);
       }
       append_reference(text, cell_references, c);

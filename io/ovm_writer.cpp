@@ -21,16 +21,17 @@ class Writer {
   std::string write() {
     const auto& positions = mesh_.cells.positions;
     text_ = "OVM ASCII\n";
-    line("Vertices\n{}", positions.cols());
+    append_line(text_, "Vertices\n{}", positions.cols());
     for (Eigen::Index v = 0; v < positions.cols(); ++v)
       for (int axis = 0; axis < 3; ++axis) {
         append_number(text_, positions(axis, v));
         text_ += axis == 2 ? '\n' : ' ';
       }
-    line("Edges\n{}", solid_.edge_count());
+    append_line(text_, "Edges\n{}", solid_.edge_count());
     for (const EdgeId e : solid_.edges()) {
       const auto& ends = solid_.edge_vertices(e);
-      line("{} {}", built_.point_from_vertex[ends[0].index()], built_.point_from_vertex[ends[1].index()]);
+      append_line(text_, "{} {}", built_.point_from_vertex[ends[0].index()],
+                  built_.point_from_vertex[ends[1].index()]);
     }
     write_faces();
     write_cells();
@@ -43,15 +44,10 @@ class Writer {
   }
 
  private:
-  template <class... Args>
-  void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-    text_ += '\n';
-  }
   void number(std::size_t value) { fmt::format_to(std::back_inserter(text_), " {}", value); }
 
   void write_faces() {
-    line("Faces\n{}", solid_.face_count());
+    append_line(text_, "Faces\n{}", solid_.face_count());
     for (const FaceId f : solid_.faces()) {
       const auto vertices = solid_.face_vertices(f);
       const auto edges = solid_.face_edges(f);
@@ -63,7 +59,7 @@ class Writer {
   }
 
   void write_cells() {
-    line("Polyhedra\n{}", solid_.cell_count());
+    append_line(text_, "Polyhedra\n{}", solid_.cell_count());
     for (const CellId c : solid_.cells()) {
       const auto uses = solid_.cell_face_uses(c);
       fmt::format_to(std::back_inserter(text_), "{}", uses.size());
@@ -75,7 +71,7 @@ class Writer {
   void fields(std::string_view entity, const std::vector<NamedField>& list) {
     for (const NamedField& field : list) {
       const auto width = static_cast<std::size_t>(field.components);
-      line("{} {} \"{}\"", entity, k_types[width], field.name);
+      append_line(text_, "{} {} \"{}\"", entity, k_types[width], field.name);
       for (std::size_t i = 0; i < field.values.size(); ++i) {
         append_number(text_, field.values[i]);
         text_ += (i + 1) % width == 0 ? '\n' : ' ';
@@ -84,7 +80,7 @@ class Writer {
   }
 
   void members(std::string_view entity, const NamedSet& set, std::size_t count) {
-    line("{} bool \"{}{}\"", entity, k_set_prefix, set.name);
+    append_line(text_, "{} bool \"{}{}\"", entity, k_set_prefix, set.name);
     for (const std::uint8_t value : membership(set, count)) {
       text_ += static_cast<char>('0' + value);
       text_ += '\n';

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "io/surface.h"
+#include "io/surface_sides.h"
 #include "subdiv/disjoint_sets.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::io {
 namespace {
@@ -27,17 +29,9 @@ bool is_broken(std::span<const std::uint32_t> face, std::size_t vertices) {
 std::vector<Side> sorted_sides(const SurfaceMesh& mesh) {
   std::vector<Side> sides;
   sides.reserve(mesh.corners.size());
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const std::size_t j = (i + 1) % face.size();
-      sides.push_back({{std::min(face[i], face[j]), std::max(face[i], face[j])},
-                       static_cast<std::uint32_t>(f),
-                       mesh.offsets[f] + i,
-                       mesh.offsets[f] + j,
-                       face[i] < face[j]});
-    }
-  }
+  for (const SurfaceSide& s : surface_sides(mesh))
+    sides.push_back(
+        {{std::min(s.from, s.to), std::max(s.from, s.to)}, s.face, s.corner, s.next_corner, s.from < s.to});
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return std::tie(a.edge, a.corner) < std::tie(b.edge, b.corner); });
   return sides;
@@ -55,8 +49,7 @@ void count_fans(const SurfaceMesh& mesh, subdiv::DisjointSets& fans, SurfaceRepo
       report.non_manifold_vertices.push_back(mesh.corners[c]);
   }
   auto& vertices = report.non_manifold_vertices;
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  subdiv::sort_unique(vertices);
 }
 
 std::string edge_words(const std::vector<SurfaceReport::Edge>& edges) {

@@ -2,8 +2,11 @@
 // A strict reader of words and numbers in a text that knows where it is: every complaint carries file:line:column.
 // Numbers are independent of the locale, must fill their word, and must be finite and in range.
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -68,5 +71,11 @@ class TextCursor {
 [[nodiscard]] std::string in_quotes(std::string_view word);
 /// Appends the shortest decimal that reads back as the same double.
 void append_number(std::string& text, double value);
+/// Appends a formatted line with its end.
+template <class... Args>
+void append_line(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
+  text += '\n';
+}
 
 }  // namespace argil::io

@@ -2,11 +2,14 @@
 // Cells as VTK's files number them, and their way into and out of cell lists. Hexahedra, tetrahedra, wedges,
 // pyramids and polyhedra are held; voxels are read as hexahedra; every other kind is refused by name.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "subdiv/cell_kinds.h"
 #include "subdiv/cell_lists.h"
 
 namespace argil::io {
@@ -24,6 +27,13 @@ struct VtkCells {
 /// @throws Error (unsupported) for another kind of cell, by name; (bad_input) for a wrong number of vertices, a
 /// vertex out of range or a face stream that does not fit. Cost O(connectivity).
 void append_vtk_cells(const VtkCells& cells, subdiv::CellLists& lists);
+
+/// What another format calls a kind of cell, and where its vertices stand in ours (which is VTK's order).
+struct NamedCellKind {
+  std::string_view word;
+  subdiv::CellKind kind;
+  std::array<std::size_t, 8> vtk_from_file;
+};
 
 [[nodiscard]] int vtk_type(subdiv::CellKind kind);
 /// "hexahedra", …

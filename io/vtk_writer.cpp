@@ -34,9 +34,9 @@ class Writer {
     text_ = fmt::format("# vtk DataFile Version 4.2\nArgil\n{}\nDATASET UNSTRUCTURED_GRID\n",
                         binary_ ? "BINARY" : "ASCII");
     const auto points = static_cast<std::size_t>(cells.positions.cols());
-    line("POINTS {} double", points);
+    append_line(text_, "POINTS {} double", points);
     numbers(cells.positions.data(), 3 * points, 3);
-    line("CELLS {} {}", cells.cell_count(), cells.cell_count() + cells.connectivity.size());
+    append_line(text_, "CELLS {} {}", cells.cell_count(), cells.cell_count() + cells.connectivity.size());
     for (std::size_t c = 0; c < cells.cell_count(); ++c) {
       const std::size_t size = cells.offsets[c + 1] - cells.offsets[c];
       number(static_cast<std::int32_t>(size));
@@ -49,7 +49,7 @@ class Writer {
     if (binary_) text_ += '\n';
     std::vector<std::int32_t> types;
     for (const auto kind : cells.kinds) types.push_back(vtk_type(kind));
-    line("CELL_TYPES {}", types.size());
+    append_line(text_, "CELL_TYPES {}", types.size());
     numbers(types.data(), types.size(), 1);
     attributes("POINT_DATA", points, mesh.point_fields, mesh.sets, SetKind::points);
     attributes("CELL_DATA", cells.cell_count(), mesh.cell_fields, mesh.sets, SetKind::cells);
@@ -57,12 +57,6 @@ class Writer {
   }
 
  private:
-  template <class... Args>
-  void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-    text_ += '\n';
-  }
-
   template <class T>
   void number(T value) {
     if (binary_) {  // big endian
@@ -91,14 +85,14 @@ class Writer {
     const auto held =
         static_cast<std::size_t>(std::count_if(sets.begin(), sets.end(), [&](auto& s) { return s.kind == kind; }));
     if (fields.empty() && held == 0) return;
-    line("{} {}\nFIELD FieldData {}", header, items, fields.size() + held);
+    append_line(text_, "{} {}\nFIELD FieldData {}", header, items, fields.size() + held);
     for (const NamedField& field : fields) {
-      line("{} {} {} double", encoded(field.name), field.components, items);
+      append_line(text_, "{} {} {} double", encoded(field.name), field.components, items);
       numbers(field.values.data(), field.values.size(), static_cast<std::size_t>(field.components));
     }
     for (const NamedSet& set : sets) {
       if (set.kind != kind) continue;
-      line("{} 1 {} unsigned_char", encoded(std::string(k_set_prefix) + set.name), items);
+      append_line(text_, "{} 1 {} unsigned_char", encoded(std::string(k_set_prefix) + set.name), items);
       numbers(membership(set, items).data(), items, 1);
     }
   }

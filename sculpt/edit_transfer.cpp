@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sculpt/field_transfer.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -66,8 +67,7 @@ std::vector<std::uint32_t> EditTransfer::follow(ElementType type, const std::vec
         if (id < node_map_->size() && (*node_map_)[id] != k_no_node) result.push_back((*node_map_)[id]);
       break;
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  subdiv::sort_unique(result);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -179,8 +180,7 @@ std::vector<std::uint32_t> copied_nodes(const Refinement& after, const Edit& edi
     if (placed.vertex == source) continue;
     for (const CellId c : vertex_cells(solid, placed.vertex)) candidates.push_back(c);
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  subdiv::sort_unique(candidates);
 
   LevelMap map{std::vector<VertexId>(solid.vertex_capacity()), std::vector<EdgeId>(solid.edge_capacity()),
                std::vector<FaceId>(solid.face_capacity()), std::vector<CellId>(solid.cell_capacity())};

@@ -7,6 +7,7 @@
 #include "subdiv/error.h"
 #include "subdiv/hanging_vertices.h"
 #include "subdiv/inside_out.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -90,8 +91,7 @@ std::map<std::string, Selection> imported_sets(const io::VolumeMesh& mesh, Impor
     if (lost > 0)
       imported.notes.push_back(fmt::format("{} {} of the set '{}' are not those of a cell and were left out", lost,
                                            word(selection.type), set.name));
-    std::sort(selection.ids.begin(), selection.ids.end());
-    selection.ids.erase(std::unique(selection.ids.begin(), selection.ids.end()), selection.ids.end());
+    subdiv::sort_unique(selection.ids);
     std::string name = set.name;
     while (sets.contains(name)) name += fmt::format("_{}", word(selection.type));
     if (name != set.name)

@@ -7,6 +7,7 @@
 
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -188,8 +189,7 @@ std::vector<std::uint32_t> vertices_of(const Document& document, const Selection
         break;
     }
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  subdiv::sort_unique(ids);
   return ids;
 }
 

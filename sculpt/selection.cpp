@@ -5,6 +5,7 @@
 
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -14,8 +15,7 @@ using namespace subdiv;
 using Ids = std::vector<std::uint32_t>;
 
 void sort_unique(Ids& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  subdiv::sort_unique(ids);
 }
 
 // The elements of one type: nodes are the vertices of the finest level, the others are of the control solid.

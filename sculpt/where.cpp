@@ -11,6 +11,7 @@
 
 #include "sculpt/near_names.h"
 #include "subdiv/error.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -42,8 +43,7 @@ class ExpressionParser {
     if (at_ < tokens_.size())
       fail(at_, "expected an operator or the end of the expression (other arguments stand before `where`)");
     auto& used = expression_.variables_;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    subdiv::sort_unique(used);
     return std::move(expression_);
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
@@ -41,13 +42,11 @@ void append_corners(const Solid& solid, CellId cell, std::vector<std::array<Vert
 
 GuardedMotion::GuardedMotion(const Solid& solid, Eigen::Matrix3Xd positions, std::span<const VertexId> vertices)
     : positions_(std::move(positions)), vertices_(vertices.begin(), vertices.end()) {
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  sort_unique(vertices_);
   std::vector<CellId> cells;
   for (const VertexId v : vertices_)
     for (const CellId c : vertex_cells(solid, v)) cells.push_back(c);
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  sort_unique(cells);
   for (const CellId c : cells) append_corners(solid, c, corners_);
   std::vector<std::pair<VertexId, std::uint32_t>> uses;
   for (std::uint32_t i = 0; i < corners_.size(); ++i)

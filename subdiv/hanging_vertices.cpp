@@ -7,6 +7,7 @@
 #include <span>
 
 #include "subdiv/disjoint_sets.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 namespace {
@@ -108,8 +109,7 @@ std::optional<HangingVertex> find_hanging_vertex(const Solid& solid, const Eigen
     for (const VertexId v : solid.face_vertices(f)) vertices.emplace_back(piece, v);
   }
   std::sort(faces.begin(), faces.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   const auto at = [&](VertexId v) -> Eigen::Vector3d {
     return positions.col(static_cast<Eigen::Index>(v.index()));
   };

@@ -5,6 +5,7 @@
 #include "subdiv/radial_edge.h"
 #include "subdiv/refinement_step.h"
 #include "subdiv/skin.h"
+#include "subdiv/sort_unique.h"
 #include "subdiv/transaction.h"
 
 namespace argil::subdiv {
@@ -18,8 +19,7 @@ Solid cut(const Solid& solid, VertexId v, std::vector<VertexId>& kept) {
     const auto vertices = cell_vertices(solid, c);
     kept.insert(kept.end(), vertices.begin(), vertices.end());
   }
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  sort_unique(kept);
   const auto number = [&](VertexId w) {
     return VertexId{static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), w) - kept.begin())};
   };

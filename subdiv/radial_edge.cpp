@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cassert>
 
+#include "subdiv/sort_unique.h"
+
 namespace argil::subdiv {
 
 namespace {
-
-template <class IdType>
-void sort_unique(std::vector<IdType>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 // The uses at one edge, paired by the cells that they belong to.
 class EdgeRing {

@@ -1,4 +1,5 @@
 #include "subdiv/skin.h"
+#include "subdiv/sort_unique.h"
 
 #include <algorithm>
 #include <vector>
@@ -65,8 +66,7 @@ void for_each_sharpness(const Solid& solid, const Skin& skin, VertexId v, const 
       if (solid.face_sharpness(f) > 0 && !solid.is_boundary(f)) faces.push_back(f);
     });
   });
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   for (const FaceId f : faces) visit(solid.face_sharpness(f));
 }
 

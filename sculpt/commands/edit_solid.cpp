@@ -8,6 +8,7 @@
 #include "sculpt/field_transfer.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -46,8 +47,7 @@ Selection chosen(const Edit& edit, const Selection& otherwise) {
     if (ids.empty()) return false;
     selection = {type, {}};
     for (const auto id : ids) selection.ids.push_back(id.value);
-    std::sort(selection.ids.begin(), selection.ids.end());
-    selection.ids.erase(std::unique(selection.ids.begin(), selection.ids.end()), selection.ids.end());
+    subdiv::sort_unique(selection.ids);
     return true;
   };
   const bool any = choose(ElementType::faces, edit.next_faces) || choose(ElementType::cells, edit.next_cells) ||

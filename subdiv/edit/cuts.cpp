@@ -8,6 +8,7 @@
 #include "subdiv/edit/rewrite.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
@@ -44,8 +45,7 @@ void check_sphere(const NewCell& cell) {
 
 template <class IdType>
 void sort_unique(std::vector<IdType>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sort_unique(ids);
 }
 
 template <class IdType>

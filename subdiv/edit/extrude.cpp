@@ -9,6 +9,7 @@
 
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
@@ -65,8 +66,7 @@ class Extruder {
         }
       }
     }
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    sort_unique(edges_);
     for (const VertexId v : sources_) top_[v] = v;
   }
 

@@ -10,6 +10,7 @@
 #include "subdiv/edit/rewrite.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
@@ -31,8 +32,7 @@ class Identifier {
         const auto cells = vertex_cells(solid, group[i]);
         change_.removed.insert(change_.removed.end(), cells.begin(), cells.end());
       }
-    std::sort(change_.removed.begin(), change_.removed.end());
-    change_.removed.erase(std::unique(change_.removed.begin(), change_.removed.end()), change_.removed.end());
+    sort_unique(change_.removed);
   }
 
   Rewrite run() {
@@ -103,8 +103,7 @@ class Identifier {
 std::vector<Joined> joined(std::span<const std::pair<VertexId, VertexId>> pairs) {
   std::vector<VertexId> vertices;
   for (const auto& [a, b] : pairs) vertices.insert(vertices.end(), {a, b});
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   const auto number = [&](VertexId v) {
     return static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
   };

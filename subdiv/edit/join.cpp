@@ -4,18 +4,9 @@
 
 #include "subdiv/edit/rewrite.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
-
-namespace {
-
-template <class IdType>
-void sort_unique(std::vector<IdType>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-}  // namespace
 
 Edit join(Transaction& transaction, const Built& other) {
   Edit edit;

@@ -10,6 +10,7 @@
 #include "subdiv/disjoint_sets.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
@@ -43,8 +44,7 @@ std::vector<VertexId> vertices_of(const Solid& solid, std::span<const FaceId> fa
   std::vector<VertexId> vertices;
   for (const FaceId f : faces)
     for (const VertexId v : solid.face_vertices(f)) vertices.push_back(v);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

@@ -7,16 +7,11 @@
 #include "subdiv/disjoint_sets.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 
 namespace {
-
-template <class IdType>
-void sort_unique(std::vector<IdType>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 template <class IdType>
 std::size_t place_in(const std::vector<IdType>& sorted, IdType id) {
