@@ -15,10 +15,6 @@ namespace {
 constexpr SetKind k_kinds[] = {SetKind::points, SetKind::points, SetKind::faces, SetKind::cells};
 constexpr const char* k_dimension_names[] = {"point", "line", "surface", "volume"};
 
-void sort_unique(std::vector<std::uint32_t>& ids) {
-  subdiv::sort_unique(ids);
-}
-
 }  // namespace
 
 bool GmshMesh::add_node(std::int64_t tag, const Eigen::Vector3d& position) {
@@ -107,7 +103,7 @@ std::vector<std::uint32_t> GmshMesh::cells_by_tag() {
   std::vector<std::uint32_t> grouped;
   for (const auto& [key, items] : groups_)
     if (key.first == 3) grouped.insert(grouped.end(), items.begin(), items.end());
-  sort_unique(grouped);
+  subdiv::sort_unique(grouped);
   const auto nodes_before = [&](std::uint32_t a, std::uint32_t b) {
     const auto left = nodes_of(cells_[a]), right = nodes_of(cells_[b]);
     return std::lexicographical_compare(left.begin(), left.end(), right.begin(), right.end());
@@ -147,7 +143,7 @@ void GmshMesh::make_sets(const std::vector<std::uint32_t>& cell_from_read) {
     while (!used.emplace(set.kind, set.name).second) set.name += fmt::format("_{}", tag);
     if (dimension == 3)
       for (std::uint32_t& cell : set.ids) cell = cell_from_read[cell];
-    sort_unique(set.ids);
+    subdiv::sort_unique(set.ids);
     mesh_.sets.push_back(std::move(set));
   }
 }

@@ -14,10 +14,6 @@ namespace {
 using namespace subdiv;
 using Ids = std::vector<std::uint32_t>;
 
-void sort_unique(Ids& ids) {
-  subdiv::sort_unique(ids);
-}
-
 // The elements of one type: nodes are the vertices of the finest level, the others are of the control solid.
 class Elements {
  public:
@@ -85,10 +81,10 @@ class Elements {
     Ids around;
     for (const std::uint32_t id : chosen)
       for (const VertexId v : vertices(id)) around.push_back(v.value);
-    sort_unique(around);
+    subdiv::sort_unique(around);
     Ids found;
     for (const std::uint32_t v : around) append_at(VertexId{v}, found);
-    sort_unique(found);
+    subdiv::sort_unique(found);
     return found;
   }
 

@@ -1,8 +1,9 @@
 #include "subdiv/skin.h"
-#include "subdiv/sort_unique.h"
 
 #include <algorithm>
 #include <vector>
+
+#include "subdiv/sort_unique.h"
 
 namespace argil::subdiv {
 

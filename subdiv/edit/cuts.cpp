@@ -44,11 +44,6 @@ void check_sphere(const NewCell& cell) {
 }
 
 template <class IdType>
-void sort_unique(std::vector<IdType>& ids) {
-  sort_unique(ids);
-}
-
-template <class IdType>
 std::vector<IdType> checked_ids(const Solid& solid, std::span<const IdType> ids, const char* kind) {
   if (ids.empty())
     throw Error(ErrorCode::bad_input, fmt::format("expected {}s to cut, found none; select some first", kind));

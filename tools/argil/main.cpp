@@ -157,6 +157,30 @@ int run(int argc, char** argv) {
   render_app->add_option("--max-cells", rendering.max_cells, "refuse to make more cells")->capture_default_str();
   render_app->callback([&] { status = render(rendering); });
 
+  CLI::App* bench_app = app.add_subcommand("bench", "Measures speed on this machine");
+  bench_app->require_subcommand(1);
+  CLI::App* models_app = bench_app->add_subcommand(
+      "models", "The models of papers/004, Table 1: every column, ours beside the paper's");
+  BenchArguments benching;
+  std::string bench_space, bench_model, bench_integrator;
+  models_app->add_option("folder", benching.folder, "sessions; those named as in the table get its row")
+      ->capture_default_str();
+  models_app->add_option("--out", benching.out, "folder for what the sessions write")->capture_default_str();
+  models_app->add_option("--space", bench_space, "instead of the session's own; as the command `space`");
+  models_app->add_option("--model", bench_model, "as the command `model`");
+  models_app->add_option("--integrator", bench_integrator, "as the command `integrator`");
+  models_app->add_option("--steps", benching.steps, "steps that are timed")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  models_app->add_option("--threads", benching.threads, "threads")->check(CLI::Range(1, 1024));
+  models_app->add_flag("--json", benching.json, "print as JSON");
+  models_app->callback([&] {
+    if (!bench_space.empty()) benching.overrides["space"] = bench_space;
+    if (!bench_model.empty()) benching.overrides["model"] = bench_model;
+    if (!bench_integrator.empty()) benching.overrides["integrator"] = bench_integrator;
+    status = bench_models(benching);
+  });
+
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
   bool document = false;

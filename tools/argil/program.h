@@ -49,6 +49,18 @@ struct RenderArguments {
 };
 int render(const RenderArguments& arguments);
 
+struct BenchArguments {
+  std::filesystem::path folder = "samples/models", out = "out/bench_models";
+  std::map<std::string, std::string> overrides;  // space, model, integrator
+  std::string description;                       // of them; made
+  long steps = 30;
+  int threads = 0;  // 0: all
+  bool json = false;
+};
+/// Every session of the folder, simulated under gravity after its end, beside the table of papers/004 where the
+/// name is one of its models.
+int bench_models(BenchArguments arguments);
+
 int help(const std::string& command);
 int help_document();
 
