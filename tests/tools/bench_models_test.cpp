@@ -14,8 +14,8 @@ using nlohmann::json;
 
 TEST(BenchModels, MeasuresEverySessionOfAFolderInThePapersOrder) {
   const TemporaryFolder folder;
-  write_bytes(folder.path() / "a_post.argil", "argil 1\nnew box 1 1 2\nlevels 1\n");
-  write_bytes(folder.path() / "block_3.argil", "argil 1\nnew box 3 3 3\nlevels 1\n");
+  folder.write("a_post.argil", "argil 1\nnew box 1 1 2\nlevels 1\n");
+  folder.write("block_3.argil", "argil 1\nnew box 3 3 3\nlevels 1\n");
   const Finished finished =
       run_argil({"bench", "models", ".", "--steps", "2", "--json", "--space", "cubic"}, folder.path());
   ASSERT_EQ(finished.status, 0) << finished.err;
