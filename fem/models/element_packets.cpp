@@ -134,4 +134,24 @@ void ElementPackets::gather(const FourDoubles* slots, Eigen::Matrix3Xd& result) 
   });
 }
 
+void visit_packets(const ElementPackets& packets, std::size_t block, const Tangent::Visit& visit,
+                   const std::function<void(std::size_t packet, FourDoubles* matrices)>& compute) {
+  constexpr std::size_t k_at_once = 16;
+  const ElementBlock& elements = packets.block(block);
+  const auto nodes = static_cast<std::size_t>(elements.kind->node_count), size = 3 * nodes;
+  std::vector<FourDoubles> matrices(k_at_once * size * size);
+  Eigen::MatrixXd stiffness(size, size);
+  const std::size_t count = packets.packet_count(block);
+  for (std::size_t first = 0; first < count; first += k_at_once) {
+    const std::size_t last = std::min(first + k_at_once, count);
+    parallel_for(last - first, 1, [&](std::size_t i) { compute(first + i, matrices.data() + i * size * size); });
+    for (std::size_t e = first * k_lane_count; e < std::min(last * k_lane_count, elements.element_count()); ++e) {
+      const FourDoubles* from = matrices.data() + (e / k_lane_count - first) * size * size;
+      double* to = stiffness.data();
+      for (std::size_t i = 0; i < size * size; ++i) to[i] = from[i].values[e % k_lane_count];
+      visit({elements.nodes.data() + e * nodes, nodes}, stiffness);
+    }
+  }
+}
+
 }  // namespace argil::fem

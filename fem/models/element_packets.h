@@ -10,6 +10,7 @@
 
 #include "fem/element_block.h"
 #include "fem/models/corotational_kernels.h"
+#include "fem/models/force_model.h"
 
 namespace argil::fem {
 
@@ -61,5 +62,10 @@ class ElementPackets {
   std::vector<std::size_t> slots_begin_;  // [node], one more ends the last
   std::vector<std::uint32_t> slots_;      // in doubles, of the x-component; y and z stand 4 and 8 further
 };
+
+/// Visits the elements of a block in order: `compute(packet, matrices)` fills the four 3n×3n matrices of a packet,
+/// a few packets at a time in parallel.
+void visit_packets(const ElementPackets& packets, std::size_t block, const Tangent::Visit& visit,
+                   const std::function<void(std::size_t packet, FourDoubles* matrices)>& compute);
 
 }  // namespace argil::fem

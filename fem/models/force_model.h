@@ -20,6 +20,10 @@ struct Promises {
   bool conserves_momentum = true;  // sums of force and of moment vanish
   bool rotation_invariant = true;
   double largest_rotation = 1e300;  // [rad] beyond which it is wrong
+  bool exact_tangent = true;        // unprojected, −∂f/∂x
+  bool symmetric_tangent = true;
+  bool passes_patch_test = true;       // an affine motion leaves no force at interior nodes
+  bool rest_tangent_is_linear = true;  // at rest, that of linear elasticity in the same formulation
 };
 
 /// The tangent at one state. stiffness_product gives ∂²Ψ/∂x² dx (= −∂f/∂x dx), 3 x nodes.

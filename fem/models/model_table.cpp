@@ -2,9 +2,28 @@
 
 #include <fmt/format.h>
 
+#include "fem/models/hyperelastic.h"
+#include "fem/models/prestress.h"
+#include "fem/models/warped_stiffness.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
+
+namespace {
+
+/// Plain corotational and linear elements have kernels of their own, which are faster.
+template <Law law>
+std::unique_ptr<ForceModel> make_law(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                                     Formulation formulation) {
+  const bool mean_dilatation = formulation == Formulation::b_bar;
+  if (law == Law::corotational && !mean_dilatation) return make_corotational(blocks, rest_nodes);
+  if (law == Law::linear && formulation == Formulation::incompatible_modes)
+    return make_linear_by_matrices(blocks, rest_nodes, formulation);
+  if (law == Law::linear && !mean_dilatation) return make_linear(blocks, rest_nodes);
+  return make_hyperelastic(law, blocks, rest_nodes, mean_dilatation);
+}
+
+}  // namespace
 
 std::string_view word(Formulation formulation) {
   switch (formulation) {
@@ -22,12 +41,28 @@ std::span<const ModelKind> model_table() {
   static constexpr ModelKind table[] = {
       {.name = "corotational",
        .summary = "the default, linear in the strain that is left when the rotation is taken off",
-       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
-                  Formulation) { return make_corotational(blocks, rest_nodes); }},
+       .make = make_law<Law::corotational>,
+       .has_b_bar = true},
       {.name = "linear",
        .summary = "small strain in fixed axes, wrong under rotation",
-       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
-                  Formulation) { return make_linear(blocks, rest_nodes); }},
+       .make = make_law<Law::linear>,
+       .has_b_bar = true,
+       .has_incompatible_modes = true},
+      {.name = "stable_neo_hookean",
+       .summary = "resists compression without limit and recovers from inversion; needs the line search",
+       .make = make_law<Law::stable_neo_hookean>,
+       .has_b_bar = true},
+      {.name = "st_venant_kirchhoff",
+       .summary =
+           "linear in the Green strain, as in reference solutions; turns soft and collapses under compression",
+       .make = make_law<Law::st_venant_kirchhoff>,
+       .has_b_bar = true},
+      {.name = "warped_stiffness",
+       .summary =
+           "one rotation an element about its linear stiffness; no energy, and ghost torque where it is distorted",
+       .make = make_warped_stiffness,
+       .has_b_bar = true,
+       .has_incompatible_modes = true},
   };
   return table;
 }
@@ -53,7 +88,15 @@ void check_model(const ModelChoice& choice) {
 std::unique_ptr<ForceModel> make_model(const ModelChoice& choice, std::span<const ElementBlock> blocks,
                                        const Eigen::Matrix3Xd& rest_nodes) {
   check_model(choice);
-  return model_by_name(choice.name).make(blocks, rest_nodes, choice.formulation);
+  const ModelKind& kind = model_by_name(choice.name);
+  bool prestressed = false;
+  for (const ElementBlock& block : blocks) prestressed = prestressed || !block.prestress.empty();
+  if (prestressed && !kind.takes_prestress)
+    throw Error(ErrorCode::unsupported,
+                fmt::format("the model {} takes no initial stress; set the prestress to 0 or choose another model",
+                            kind.name));
+  std::unique_ptr<ForceModel> model = kind.make(blocks, rest_nodes, choice.formulation);
+  return prestressed ? make_prestressed(std::move(model), blocks, rest_nodes) : std::move(model);
 }
 
 }  // namespace argil::fem

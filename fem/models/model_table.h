@@ -1,20 +1,15 @@
 #pragma once
 // The force models by name, in one table that sessions, charts, tests and help read.
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "fem/models/force_model.h"
+#include "fem/models/formulation.h"
 
 namespace argil::fem {
-
-/// How a model takes the strain in hexahedra (METHODS §3). Other element kinds are always plain.
-enum class Formulation { plain, b_bar, incompatible_modes };
-inline constexpr std::array k_formulations{Formulation::plain, Formulation::b_bar, Formulation::incompatible_modes};
-[[nodiscard]] std::string_view word(Formulation formulation);
 
 struct ModelChoice {
   std::string name = "corotational";
@@ -41,7 +36,8 @@ void check_model(const ModelChoice& choice);
 /// The blocks must outlive the model; as in force_model.h. Prestress that a block has now is added to the model.
 /// @throws what check_model() throws, and (unsupported) naming an element kind that the model has no forces for, or
 /// prestress that it cannot take.
-[[nodiscard]] std::unique_ptr<ForceModel> make_model(const ModelChoice& choice, std::span<const ElementBlock> blocks,
+[[nodiscard]] std::unique_ptr<ForceModel> make_model(const ModelChoice& choice,
+                                                     std::span<const ElementBlock> blocks,
                                                      const Eigen::Matrix3Xd& rest_nodes);
 
 }  // namespace argil::fem

@@ -1,9 +1,5 @@
 #include "fem/models/packet_tangent.h"
 
-#include <algorithm>
-
-#include "fem/parallel.h"
-
 namespace argil::fem {
 
 PacketTangent::PacketTangent(std::shared_ptr<const ElementPackets> packets, std::shared_ptr<PacketMemory> memory)
@@ -27,27 +23,11 @@ void PacketTangent::stiffness_product(const Eigen::Matrix3Xd& dx, Eigen::Matrix3
 }
 
 void PacketTangent::element_tangents(const Visit& visit) const {
-  // A few packets at a time in parallel, then their elements in order.
-  constexpr std::size_t k_at_once = 16;
   for (std::size_t block = 0; block < packets_->block_count(); ++block) {
     const PacketArguments arguments = packets_->arguments(block, nullptr, entries_.data(), nullptr);
-    const auto nodes = static_cast<std::size_t>(arguments.kind->node_count), size = 3 * nodes;
-    std::vector<FourDoubles> matrices(k_at_once * size * size);
-    Eigen::MatrixXd stiffness(size, size);
-    const std::size_t packets = packets_->packet_count(block);
-    for (std::size_t first = 0; first < packets; first += k_at_once) {
-      const std::size_t last = std::min(first + k_at_once, packets);
-      parallel_for(last - first, 1, [&](std::size_t i) {
-        packet_stiffness(arguments, first + i, matrices.data() + i * size * size);
-      });
-      for (std::size_t element = first * k_lanes; element < std::min(last * k_lanes, arguments.element_count);
-           ++element) {
-        const FourDoubles* from = matrices.data() + (element / k_lanes - first) * size * size;
-        double* to = stiffness.data();
-        for (std::size_t i = 0; i < size * size; ++i) to[i] = from[i].values[element % k_lanes];
-        visit({packets_->block(block).nodes.data() + element * nodes, nodes}, stiffness);
-      }
-    }
+    visit_packets(*packets_, block, visit, [&](std::size_t packet, FourDoubles* stiffness) {
+      packet_stiffness(arguments, packet, stiffness);
+    });
   }
 }
 
