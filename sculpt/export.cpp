@@ -122,7 +122,7 @@ class SetExport {
 }  // namespace
 
 std::vector<std::string> save_document(const Document& document, const std::filesystem::path& path, int level,
-                                       const io::WriteOptions& options) {
+                                       const io::WriteOptions& options, const ReferenceShape* reference) {
   const subdiv::Refinement& refined = document.refinement();
   const subdiv::Solid& solid = refined.levels[static_cast<std::size_t>(level)];
   const bool finest = level == document.state().level;
@@ -145,9 +145,12 @@ std::vector<std::string> save_document(const Document& document, const std::file
   } else {
     std::vector<std::string> names;
     for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
-    if (level > 0) names.insert(names.end(), {"strain", "stress", "speed"});
+    if (level > 0)
+      names.insert(names.end(), {"strain", "strain_1", "strain_2", "strain_3", "stress", "stress_1", "stress_2",
+                                 "stress_3", "pressure", "distortion", "speed"});
+    if (reference) names.emplace_back("error");
     for (const std::string& name : names) {
-      const ShownField field = shown_field(document, name);
+      const ShownField field = shown_field(document, name, reference);
       io::NamedField out{.name = name, .components = 1, .values = {}};
       for (const subdiv::VertexId v : solid.vertices())
         out.values.push_back(field.values[static_cast<Eigen::Index>(v.index())]);

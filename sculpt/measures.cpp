@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "fem/measure/energy.h"
+#include "fem/measure/quality.h"
 #include "sculpt/document_loads.h"
 #include "sculpt/near_names.h"
 #include "sculpt/region.h"
@@ -21,13 +25,6 @@ Eigen::Matrix3Xd present_nodes(const Document& document) {
   return subdiv::apply(document.discretization().nodes.rows, document.positions());
 }
 
-Eigen::VectorXd strain(const Document& document) {
-  return document.shown_elements().equivalent_strain(document.surface_nodes(document.positions()));
-}
-Eigen::VectorXd stress(const Document& document) {
-  return document.shown_elements().von_mises_stress(document.surface_nodes(document.positions()));
-}
-
 double axis_of(const std::string& name, const Eigen::Vector3d& v) {
   switch (name.back()) {
     case 'x':
@@ -41,25 +38,55 @@ double axis_of(const std::string& name, const Eigen::Vector3d& v) {
   }
 }
 
-double over_nodes(const Document& document, const MeasureQuery& query, const Eigen::VectorXd& values, bool mean) {
+enum class Kind { max, min, mean };
+
+double over_nodes(const Document& document, const MeasureQuery& query, const Eigen::VectorXd& values, Kind kind) {
   const auto nodes = matching(document, ElementType::nodes, query.where);
   if (nodes.empty()) throw Error(ErrorCode::bad_input, "no node fits the condition");
-  double largest = -1e300, sum = 0;
+  double largest = -1e300, smallest = 1e300, sum = 0;
   for (const std::uint32_t node : nodes) {
     largest = std::max(largest, values[node]);
+    smallest = std::min(smallest, values[node]);
     sum += values[node];
   }
-  return mean ? sum / static_cast<double>(nodes.size()) : largest;
+  switch (kind) {
+    case Kind::max:
+      return largest;
+    case Kind::min:
+      return smallest;
+    case Kind::mean:
+      break;
+  }
+  return sum / static_cast<double>(nodes.size());
 }
 
-Eigen::Vector3d total_reaction(const Document& document, const Expression* where) {
+fem::Wrench total_reaction(const Document& document, const Expression* where) {
   const Eigen::Matrix3Xd all = fem::reactions(document.system(), document.loads(), document.positions());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : matching(document, ElementType::vertices, where)) sum += all.col(v);
+  fem::Wrench sum = fem::wrench(all, document.positions(), matching(document, ElementType::vertices, where));
   if (where) return sum;  // springs hold nodes, not control vertices
-  for (const SoftPin& pin : document.state().pins->nodes)
-    sum += pin.stiffness * (pin.target - document.surface_nodes(document.positions()).col(pin.node));
+  const fem::Wrench soft = fem::wrench(document.loads().springs, document.positions());
+  sum.force += soft.force;
+  sum.moment += soft.moment;
   return sum;
+}
+
+// A derived field has measures of its own name with these endings; the older names of three of them stay.
+struct FieldMeasure {
+  const DerivedField* field = nullptr;
+  Kind kind = Kind::max;
+};
+constexpr std::array<std::pair<Kind, const char*>, 3> k_kinds{
+    {{Kind::max, "max"}, {Kind::min, "min"}, {Kind::mean, "mean"}}};
+
+bool has_measures(const DerivedField& field) {
+  return !std::string_view(field.name).starts_with("displacement") && std::string_view(field.name) != "speed";
+}
+
+FieldMeasure field_measure(const std::string& name) {
+  for (const DerivedField& field : derived_fields())
+    for (const auto& [kind, ending] : k_kinds)
+      if (has_measures(field) && name == fmt::format("{}_{}", field.name, ending)) return {&field, kind};
+  return {};
 }
 
 }  // namespace
@@ -83,13 +110,23 @@ const std::vector<MeasureInfo>& measure_table() {
         {"max_displacement", "m", "largest distance of a node from rest", false, true},
         {"max_speed", "m/s", "largest speed of a node", false, true},
         {"pin_motion", "m", "largest distance of a pinned control point from rest"},
-        {"strain_max", "", "largest equivalent strain", false, true},
-        {"strain_mean", "", "mean equivalent strain of the nodes", false, true},
-        {"stress_max", "Pa", "largest von Mises stress", false, true},
-        {"stress_mean", "Pa", "mean von Mises stress of the nodes", false, true},
+        {"load_energy", "J", "potential of gravity and applied forces, 0 at rest"},
+        {"spring_energy", "J", "energy of soft pins"},
+        {"min_volume_ratio", "", "smallest present over rest volume (det F) at a quadrature point"},
         {"displacement", "m", "of a material point", true},
         {"reaction", "N", "what the pins apply", false, true},
     };
+    for (const DerivedField& field : derived_fields())
+      for (const auto& [kind, ending] : k_kinds)
+        if (has_measures(field))
+          all.push_back({fmt::format("{}_{}", field.name, ending),
+                         std::string_view(field.unit) == "%" ? "" : field.unit,
+                         fmt::format("{} {}{}",
+                                     kind == Kind::max   ? "largest"
+                                     : kind == Kind::min ? "smallest"
+                                                         : "mean",
+                                     field.help, kind == Kind::mean ? " of the nodes" : ""),
+                         false, true, field.wants_reference});
     for (const char* axis : {"x", "y", "z"}) {
       all.push_back(
           {fmt::format("displacement_{}", axis), "m", fmt::format("along {}, of a material point", axis), true});
@@ -97,7 +134,11 @@ const std::vector<MeasureInfo>& measure_table() {
           {fmt::format("position_{}", axis), "m", fmt::format("present {} of a material point", axis), true});
       all.push_back(
           {fmt::format("reaction_{}", axis), "N", fmt::format("along {}, what the pins apply", axis), false, true});
+      all.push_back({fmt::format("reaction_moment_{}", axis), "N m",
+                     fmt::format("about {} through the origin, what the pins apply", axis), false, true});
       all.push_back({fmt::format("momentum_{}", axis), "kg m/s", fmt::format("along {}", axis)});
+      all.push_back(
+          {fmt::format("angular_momentum_{}", axis), "kg m^2/s", fmt::format("about {} through the origin", axis)});
     }
     std::sort(all.begin(), all.end(), [](const MeasureInfo& a, const MeasureInfo& b) { return a.name < b.name; });
     return all;
@@ -122,6 +163,8 @@ double measure(const Document& document, const MeasureQuery& query) {
     throw Error(ErrorCode::bad_input, fmt::format("{} is not measured at a point; leave out `at`", name));
   if (!found->over_nodes && query.where)
     throw Error(ErrorCode::bad_input, fmt::format("{} is of the whole solid; leave out `where`", name));
+  if (!found->against_reference && query.reference)
+    throw Error(ErrorCode::bad_input, fmt::format("{} needs no reference; leave it out", name));
   const fem::BodyState& motion = *document.state().motion;
   const auto elastic = [&] { return document.model().energy(present_nodes(document)); };
   const auto kinetic = [&] { return fem::energy(document.system(), motion).kinetic; };
@@ -148,49 +191,30 @@ double measure(const Document& document, const MeasureQuery& query) {
     return over_nodes(
         document, query,
         (document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
-        false);
+        Kind::max);
   if (name == "max_speed")
-    return over_nodes(document, query, document.surface_nodes(motion.velocities).colwise().norm(), false);
+    return over_nodes(document, query, document.surface_nodes(motion.velocities).colwise().norm(), Kind::max);
   if (name == "pin_motion") {
     double largest = 0;
     for (const std::uint32_t v : document.state().pins->control_points)
       largest = std::max(largest, (document.positions().col(v) - document.rest().col(v)).norm());
     return largest;
   }
-  if (name.starts_with("strain")) return over_nodes(document, query, strain(document), name == "strain_mean");
-  if (name.starts_with("stress")) return over_nodes(document, query, stress(document), name == "stress_mean");
-  if (name.starts_with("reaction")) return axis_of(name, total_reaction(document, query.where));
+  if (const FieldMeasure asked = field_measure(name); asked.field)
+    return over_nodes(document, query, shown_field(document, asked.field->name, query.reference).values,
+                      asked.kind);
+  if (name == "load_energy") return fem::load_potential(document.loads(), document.rest(), document.positions());
+  if (name == "spring_energy") return fem::spring_energy(document.loads().springs, document.positions());
+  if (name == "min_volume_ratio")
+    return fem::min_volume_ratio(document.discretization().blocks, present_nodes(document));
+  if (name.starts_with("reaction_moment")) return axis_of(name, total_reaction(document, query.where).moment);
+  if (name.starts_with("reaction")) return axis_of(name, total_reaction(document, query.where).force);
+  if (name.starts_with("angular_momentum")) return axis_of(name, fem::momentum(document.system(), motion).angular);
   if (name.starts_with("momentum")) return axis_of(name, fem::momentum(document.system(), motion).linear);
   const fem::MaterialPoint point = material_point(document, *query.at);
   const Eigen::Vector3d now = fem::position(point.stencil, document.positions());
   if (name.starts_with("position")) return axis_of(name, now);
   return axis_of(name, now - fem::position(point.stencil, document.rest()));
-}
-
-std::vector<std::string> shown_field_names() {
-  std::vector<std::string> names{"strain", "stress", "displacement", "speed"};
-  for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
-  return names;
-}
-
-ShownField shown_field(const Document& document, const std::string& name) {
-  if (name == "strain") return {strain(document), "strain", "%"};
-  if (name == "stress") return {stress(document), "von Mises stress", "Pa"};
-  if (name == "displacement")
-    return {
-        (document.surface_nodes(document.positions()) - document.surface_nodes(document.rest())).colwise().norm(),
-        "displacement", "m"};
-  if (name == "speed")
-    return {document.surface_nodes(document.state().motion->velocities).colwise().norm(), "speed", "m/s"};
-  for (const FieldInfo& info : field_table())
-    if (name == info.word) {
-      std::string title = name;
-      std::replace(title.begin(), title.end(), '_', ' ');
-      return {(*document.state().fields)[info.name], title, info.unit};
-    }
-  const auto names = shown_field_names();
-  throw Error(ErrorCode::not_found, fmt::format("'{}' is not a field to show{}; there are {}", name,
-                                                near_names_hint(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace argil::sculpt

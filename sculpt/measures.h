@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sculpt/document.h"
+#include "sculpt/shown_fields.h"
 #include "sculpt/where.h"
 
 namespace argil::sculpt {
@@ -14,6 +15,7 @@ struct MeasureInfo {
   std::string name{}, unit{}, help{};
   bool at_point = false;    // wants `at X Y Z`, a material point by its rest position
   bool over_nodes = false;  // may be narrowed by `where` on nodes
+  bool against_reference = false;
 };
 /// In order of name.
 [[nodiscard]] const std::vector<MeasureInfo>& measure_table();
@@ -22,17 +24,9 @@ struct MeasureQuery {
   std::string name{};
   std::optional<Eigen::Vector3d> at = std::nullopt;
   const Expression* where = nullptr;
+  const ReferenceShape* reference = nullptr;
 };
 /// @throws Error (not_found) for another name; (bad_input) for a missing or superfluous point or condition.
 [[nodiscard]] double measure(const Document& document, const MeasureQuery& query);
-
-/// Fields that pictures and files can show, per vertex of the finest level.
-struct ShownField {
-  Eigen::VectorXd values;
-  std::string title, unit;
-};
-/// strain, stress, displacement, speed, or a field of the document. @throws Error (not_found) listing them.
-[[nodiscard]] ShownField shown_field(const Document& document, const std::string& name);
-[[nodiscard]] std::vector<std::string> shown_field_names();
 
 }  // namespace argil::sculpt

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sculpt/document_loads.h"
+#include "sculpt/export.h"
 #include "sculpt/measures.h"
 #include "sculpt/region.h"
 #include "subdiv/error.h"
@@ -149,32 +150,65 @@ Scene net_scene(const Document& document, const PictureRequest& request) {
 
 }  // namespace
 
+namespace {
+
+SceneSurface surface_of(const Solid& solid, const Eigen::Matrix3Xd& positions, const PictureRequest& request,
+                        const CellData<std::uint8_t>& kept, const Refinement& refinement) {
+  SceneSurface surface = cells_surface(solid, positions, kept);
+  if (request.control_wire) keep_wire_between(surface, control_cells(refinement));
+  return surface;
+}
+
+void add_field(Scene& scene, const Document& document, const PictureRequest& request,
+               const Eigen::Matrix3Xd& positions, const CellData<std::uint8_t>& kept) {
+  const ShownField field = shown_field(document, request.field, request.reference.get());
+  const ColourMap map = request.colours.value_or(field.map);
+  if (request.volume) {
+    scene.volume = scene_volume(document.refinement().solid(), positions, kept, field.values);
+    scene.volume->opacity = request.opacity;
+    scene.draw_surface = false;
+    scene.legend = field_legend(std::vector<double>(scene.volume->values.begin(), scene.volume->values.end()),
+                                field.title, field.unit, map);
+  } else {
+    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title, field.unit,
+               map);
+  }
+  if (!request.range) return;
+  scene.legend->low = (*request.range)[0];
+  scene.legend->high = (*request.range)[1];
+}
+
+}  // namespace
+
 Scene make_scene(const Document& document, const PictureRequest& request) {
   if (document.empty()) throw Error(ErrorCode::bad_input, "there is no solid to show; begin with `new` or `open`");
   if (request.net_cell) return net_scene(document, request);
+  if (request.corner) return corner_scene(document, *request.corner);
+  if (request.volume && request.field.empty())
+    throw Error(ErrorCode::bad_input, "a volume is of a field; add `field strain`");
   const Solid& solid = document.refinement().solid();
   const Eigen::Matrix3Xd positions =
       document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
   Scene scene;
+  const CellData<std::uint8_t> kept =
+      request.clip ? cells_met_or_kept(solid, positions, *request.clip) : CellData<std::uint8_t>{};
   if (request.style == PictureStyle::solid) {
-    scene.surface =
-        request.clip ? clipped_surface(solid, positions, *request.clip) : cells_surface(solid, positions);
-    if (request.control_wire) keep_wire_between(scene.surface, control_cells(document.refinement()));
+    scene.surface = surface_of(solid, positions, request, kept, document.refinement());
   } else {
     scene.surface = cells_surface(solid, positions);
     scene.surface.wire.clear();
     scene.draw_surface = false;
     add_lines(scene, solid, positions, request.style == PictureStyle::boundary_wireframe);
   }
-  if (!request.field.empty()) {
-    const ShownField field = shown_field(document, request.field);
-    show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title,
-               field.unit);
-    if (request.range) {
-      scene.legend->low = (*request.range)[0];
-      scene.legend->high = (*request.range)[1];
-    }
+  if (!request.field.empty()) add_field(scene, document, request, positions, kept);
+  if (request.frames) {
+    add_frames(scene, document, *request.frames, kept);
+    scene.draw_surface = false;
   }
+  if (request.overlay_rest)
+    add_overlay(scene, surface_mesh(solid, document.state().level == 0 ? document.rest()
+                                                                       : document.surface_nodes(document.rest())));
+  if (request.overlay) add_overlay(scene, *request.overlay);
   if (request.cage) add_cage(scene, document.solid(), document.positions());
   if (request.marks) add_marks(scene, document, request, positions);
   return scene;

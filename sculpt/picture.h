@@ -1,10 +1,12 @@
 #pragma once
 // From a document to a scene: what `render` shows.
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "sculpt/document.h"
+#include "sculpt/physics_picture.h"
 #include "sculpt/renderer.h"
 #include "sculpt/scene.h"
 
@@ -17,7 +19,11 @@ enum class PictureStyle {
 };
 
 struct PictureRequest {
-  std::string field;  // empty: clay
+  std::string field;                                // empty: clay
+  std::optional<ColourMap> colours;                 // else by rule
+  std::shared_ptr<const ReferenceShape> reference;  // for the field `error`
+  bool volume = false;                              // the field inside, in place of the surface
+  double opacity = 1;                               // of the volume
   std::optional<std::array<double, 2>> range;
   std::optional<ClipPlane> clip;
   PictureStyle style = PictureStyle::solid;
@@ -25,11 +31,16 @@ struct PictureRequest {
   bool control_wire = false;  // outlines of the control cells only, on the refined surface
   bool marks = true;          // loads as arrows, pins as marks
   std::optional<std::array<Eigen::Vector3d, 2>> tool_force;  // where [m] and what [N]: shown with the loads
-  std::optional<std::uint32_t> net_cell;  // instead of the solid: this cell of the finest level in its 4×4×4 net
-  int net_steps = 4;                      // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
+  std::optional<std::uint32_t> net_cell;   // instead of the solid: this cell of the finest level in its 4×4×4 net
+  std::optional<FrameKind> frames;         // axes of every cell, in a body of wires
+  std::optional<std::uint32_t> corner;     // instead of the solid: the sheared corner at this vertex
+  std::optional<io::SurfaceMesh> overlay;  // edges of another mesh
+  bool overlay_rest = false;               // those of the solid at rest
+  int net_steps = 4;                       // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
 };
 
-/// @throws Error (bad_input) for a cell that is not there or has no net.
+/// @throws Error (bad_input) for a cell or vertex that is not there, a cell without a net, a volume without a
+/// field.
 [[nodiscard]] Scene make_scene(const Document& document, const PictureRequest& request);
 
 }  // namespace argil::sculpt

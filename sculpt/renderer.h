@@ -32,11 +32,33 @@ struct SceneLabel {
   Eigen::Vector3f at;
   std::string text;
 };
+/// viridis for magnitudes; cividis for material; balanced (blue, white, red) for what has a sign, white at 0.
+enum class ColourMap { viridis, cividis, balanced };
+
 /// low and high are in the unit of the values. Numbers are written with their unit: 12e3 "Pa" as 12 kPa; with the
 /// unit "%" fractions are written as per cent (0.12: 12 %).
 struct SceneLegend {
   std::string title, unit;
   double low = 0, high = 1;
+  ColourMap map = ColourMap::viridis;
+};
+
+/// Lines over the picture, what lies behind the surface faintly.
+enum class LineLook { overlay, axis_u, axis_v, axis_w, side, rest_side };
+struct SceneLines {
+  LineLook look = LineLook::overlay;
+  std::vector<std::array<Eigen::Vector3f, 2>> lines;
+};
+
+/// A field inside a body, for a volume rendering: linear in each tetrahedron. Light is emitted in the legend's
+/// colours and absorbed with an extinction that rises linearly with the value, from a twentieth at the low end of
+/// the legend to the whole at its high end; with the balanced map from the middle to both ends. The whole is
+/// `opacity` times 12 over the radius of the scene (half its diagonal).
+struct SceneVolume {
+  std::vector<Eigen::Vector3f> positions;  // [m]
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<float> values;  // per position
+  double opacity = 1;
 };
 
 struct Scene {
@@ -45,8 +67,10 @@ struct Scene {
   std::vector<Eigen::Vector3f> cage_points;
   std::vector<SceneArrow> arrows;  // loads
   std::vector<Eigen::Vector3f> pins;
+  std::vector<SceneLines> lines;
+  std::optional<SceneVolume> volume;  // instead of the surface; with a legend
   std::vector<SceneLabel> labels;     // drawn with a small dot and a halo
-  std::optional<SceneLegend> legend;  // with values: viridis between low and high
+  std::optional<SceneLegend> legend;  // with values: its map between low and high
   bool draw_surface = true;
 };
 

@@ -190,22 +190,17 @@ double round_step(double span, int most) {
   return 10 * power;
 }
 
-void show_field(Scene& scene, std::span<const double> value_from_vertex, const std::string& title,
-                const std::string& unit) {
-  SceneSurface& surface = scene.surface;
-  surface.values.clear();
+SceneLegend field_legend(std::span<const double> values, const std::string& title, const std::string& unit,
+                         ColourMap map) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const std::uint32_t v : surface.vertex_from_surface) {
-    assert(v < value_from_vertex.size());
-    const double value = value_from_vertex[v];
-    if (!std::isfinite(value))
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]))
       throw Error(ErrorCode::bad_geometry, "expected finite values of " + title + ", found one that is not",
-                  "vertex " + std::to_string(v));
-    low = std::min(low, value);
-    high = std::max(high, value);
-    surface.values.push_back(static_cast<float>(value));
+                  "value " + std::to_string(i));
+    low = std::min(low, values[i]);
+    high = std::max(high, values[i]);
   }
-  if (surface.values.empty()) low = high = 0;
+  if (values.empty()) low = high = 0;
   if (low > 0 && low < 0.5 * high) low = 0;
   // A field that is the same everywhere, but for rounding, gets one colour and not the whole range.
   const double largest = std::max(std::abs(low), std::abs(high));
@@ -216,12 +211,32 @@ void show_field(Scene& scene, std::span<const double> value_from_vertex, const s
     low = std::min(low, 0.0);
     high = std::max(high, 0.0);
   }
+  if (map == ColourMap::balanced) {
+    high = std::max(std::abs(low), std::abs(high));
+    low = -high;
+  }
   if (high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) {
     const double step = round_step(high - low, k_legend_parts);
     low = step * std::floor(low / step + 1e-9);
     high = step * std::ceil(high / step - 1e-9);
   }
-  scene.legend = SceneLegend{title, unit, low, high};
+  return {title, unit, low, high, map};
+}
+
+void show_field(Scene& scene, std::span<const double> value_from_vertex, const std::string& title,
+                const std::string& unit, ColourMap map) {
+  SceneSurface& surface = scene.surface;
+  surface.values.clear();
+  std::vector<double> shown;
+  for (const std::uint32_t v : surface.vertex_from_surface) {
+    assert(v < value_from_vertex.size());
+    if (!std::isfinite(value_from_vertex[v]))
+      throw Error(ErrorCode::bad_geometry, "expected finite values of " + title + ", found one that is not",
+                  "vertex " + std::to_string(v));
+    shown.push_back(value_from_vertex[v]);
+    surface.values.push_back(static_cast<float>(value_from_vertex[v]));
+  }
+  scene.legend = field_legend(shown, title, unit, map);
 }
 
 void add_cage(Scene& scene, const Solid& solid, const Eigen::Matrix3Xd& positions, bool interior) {

@@ -44,10 +44,16 @@ void keep_wire_between(SceneSurface& surface, const subdiv::CellData<subdiv::Cel
 /// Legends and their ranges are cut into at most so many round parts.
 inline constexpr int k_legend_parts = 8;
 
-/// Colours the surface by a field with one value a vertex of the solid, and gives the scene the legend of its range
-/// on what is shown, rounded outwards to round numbers (from 0 where all are positive and it lies near).
+/// The legend of these values, its range rounded outwards to round numbers (from 0 where all are positive and it
+/// lies near); with the balanced map as far below 0 as above. @throws Error (bad_geometry) for a value that is not
+/// finite, with its number.
+[[nodiscard]] SceneLegend field_legend(std::span<const double> values, const std::string& title,
+                                       const std::string& unit, ColourMap map = ColourMap::viridis);
+
+/// Colours the surface by a field with one value a vertex of the solid, and gives the scene the legend of what is
+/// shown.
 void show_field(Scene& scene, std::span<const double> value_from_vertex, const std::string& title,
-                const std::string& unit);
+                const std::string& unit, ColourMap map = ColourMap::viridis);
 
 /// Adds the edges and vertices of a control mesh as its cage: those of the boundary, or with `interior` all.
 void add_cage(Scene& scene, const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions, bool interior = false);

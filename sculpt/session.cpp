@@ -25,6 +25,7 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
                   fmt::format("the hash trace '{}' cannot be written; choose another file with --hash-trace",
                               options_.hash_trace.string()));
   }
+  if (!options_.step_trace.empty()) step_trace_.open(options_.step_trace);
   if (options_.write_journal) {
     journal_path_ = options_.out / "journal.argil";
     // What an earlier program left here may be all that there is of someone's work.
@@ -176,8 +177,10 @@ void Session::progress(double fraction, const std::string& what) const {
   if (options_.progress) options_.progress(fraction, what);
 }
 
-void Session::step_done(const StepRecord& record) {
+void Session::step_done(const StepRecord& record, std::span<const fem::AnchorSpring> tool_springs) {
   steps_.push_back(record);
+  if (step_trace_.is_open())
+    step_trace_.write(step_trace_row(document_, tool_springs, record, steps_.size(), current_.number));
   trace("step");
   if (line_count_ > 0)
     progress(static_cast<double>(lines_) / static_cast<double>(line_count_), fmt::format("step {}", steps_.size()));

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "sculpt/command.h"
 #include "sculpt/document.h"
 #include "sculpt/renderer.h"
+#include "sculpt/step_trace.h"
 
 namespace argil::sculpt {
 
@@ -21,6 +23,7 @@ namespace argil::sculpt {
 struct StepRecord {
   int newton_iterations = 0, linear_iterations = 0;
   bool converged = false;
+  double residual = 0;  // relative
   double ms = 0, ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
 };
 
@@ -43,6 +46,7 @@ struct SessionOptions {
   std::filesystem::path read_root = ".";         // files are read beneath it
   std::filesystem::path out = "out";             // and written beneath this
   std::filesystem::path hash_trace;              // empty: none
+  std::filesystem::path step_trace;              // a CSV row a step (step_trace.h); empty: none
   std::map<std::string, std::string> overrides;  // command → arguments, `--set space=cubic`
   long until_step = -1;                          // stop after so many simulation steps; −1: run all
   bool write_journal = true;
@@ -88,8 +92,8 @@ class Session {
   /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
   /// (limit_exceeded).
   void require_steps(double count) const;
-  /// Called for every simulation step: counts and traces.
-  void step_done(const StepRecord& record);
+  /// Called for every simulation step, with the springs of the tool that acted: counts and traces.
+  void step_done(const StepRecord& record, std::span<const fem::AnchorSpring> tool_springs = {});
   /// True once `until_step` is reached: long commands end early.
   bool stop_requested() const;
   void expectation_failed(const std::string& message);
@@ -126,6 +130,7 @@ class Session {
   io::SessionLine current_;
   std::filesystem::path journal_path_;
   std::ofstream journal_, trace_;
+  StepTrace step_trace_;
   std::size_t lines_ = 0, line_count_ = 0;
   std::uint64_t columns_stamp_ = 0;
 };

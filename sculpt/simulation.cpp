@@ -27,12 +27,13 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
   record.newton_iterations = report.newton_iterations;
   record.linear_iterations = report.linear_iterations;
   record.converged = report.converged;
+  record.residual = report.residual;
   record.ms = clock ? 1e3 * (clock() - begin) : 0;
   record.ms_forces = report.ms_forces;
   record.ms_tangent = report.ms_tangent;
   record.ms_solve = report.ms_solve;
   record.ms_line_search = report.ms_line_search;
-  session.step_done(record);
+  session.step_done(record, tool_springs);
 }
 
 }  // namespace argil::sculpt

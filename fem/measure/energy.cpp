@@ -10,11 +10,38 @@ Eigen::Matrix3Xd momenta(const System& system, const BodyState& state) {
   return state.velocities * *system.mass;
 }
 
+void add(Wrench& sum, const Eigen::Vector3d& at, const Eigen::Vector3d& force) {
+  sum.force += force;
+  sum.moment += at.cross(force);
+}
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
 }  // namespace
 
 Energy energy(const System& system, const BodyState& state) {
-  return {0.5 * momenta(system, state).cwiseProduct(state.velocities).sum(),
-          system.model->energy(nodes(system, state.positions))};
+  const Eigen::Matrix3Xd each = momenta(system, state);
+  double twice = 0;
+  for (Eigen::Index i = 0; i < each.cols(); ++i) twice += dot(each.col(i), state.velocities.col(i));
+  return {0.5 * twice, system.model->energy(nodes(system, state.positions))};
+}
+
+double spring_energy(std::span<const AnchorSpring> springs, const Eigen::Matrix3Xd& positions) {
+  double energy = 0;
+  for (const AnchorSpring& spring : springs) {
+    const Eigen::Vector3d stretch = held_point(spring, positions) - spring.target;
+    energy += 0.5 * spring.stiffness * dot(stretch, stretch);
+  }
+  return energy;
+}
+
+double load_potential(const Loads& loads, const Eigen::Matrix3Xd& rest, const Eigen::Matrix3Xd& positions) {
+  double potential = 0;
+  for (Eigen::Index i = 0; i < loads.forces.cols(); ++i)
+    potential -= dot(loads.forces.col(i), positions.col(i) - rest.col(i));
+  return potential;
 }
 
 Momentum momentum(const System& system, const BodyState& state) {
@@ -25,6 +52,28 @@ Momentum momentum(const System& system, const BodyState& state) {
     result.angular += state.positions.col(i).cross(each.col(i));
   }
   return result;
+}
+
+Wrench wrench(const Eigen::Matrix3Xd& forces, const Eigen::Matrix3Xd& positions) {
+  Wrench sum;
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) add(sum, positions.col(i), forces.col(i));
+  return sum;
+}
+
+Wrench wrench(const Eigen::Matrix3Xd& forces, const Eigen::Matrix3Xd& positions,
+              std::span<const std::uint32_t> chosen) {
+  Wrench sum;
+  for (const std::uint32_t i : chosen) add(sum, positions.col(i), forces.col(i));
+  return sum;
+}
+
+Wrench wrench(std::span<const AnchorSpring> springs, const Eigen::Matrix3Xd& positions) {
+  Wrench sum;
+  for (const AnchorSpring& spring : springs) {
+    const Eigen::Vector3d at = held_point(spring, positions);
+    add(sum, at, spring.stiffness * (spring.target - at));
+  }
+  return sum;
 }
 
 }  // namespace argil::fem

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "fem/elements/element_kind.h"
+#include "fem/measure/strain.h"
+#include "fem/parallel.h"
 #include "subdiv/build.h"
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
@@ -76,6 +78,24 @@ WorstJacobian min_relative_jacobian(const Solid& solid, const Eigen::Matrix3Xd& 
   }
   if (!worst.cell.valid()) worst.value = 1;
   return worst;
+}
+
+double min_volume_ratio(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& nodes) {
+  constexpr double k_none = std::numeric_limits<double>::max();
+  double smallest = k_none;
+  for (const ElementBlock& block : blocks) {
+    std::vector<double> of_element(block.element_count(), k_none);
+    parallel_for(block.element_count(), 64, [&](std::size_t element) {
+      for (int point = 0; point < block.kind->point_count; ++point) {
+        const std::size_t index = block.point_index(element, point);
+        if (block.mu[index] == 0 && block.lambda[index] == 0) continue;
+        of_element[element] =
+            std::min(of_element[element], deformation_gradient(block, element, point, nodes).determinant());
+      }
+    });
+    for (const double value : of_element) smallest = std::min(smallest, value);
+  }
+  return smallest == k_none ? 1 : smallest;
 }
 
 }  // namespace argil::fem

@@ -1,6 +1,9 @@
 #include "fem/measure/shown_elements.h"
 
+#include <algorithm>
+
 #include "fem/material.h"
+#include "fem/measure/recovery.h"
 #include "fem/measure/strain.h"
 #include "fem/measure/stress.h"
 #include "subdiv/build.h"
@@ -13,24 +16,33 @@ namespace {
 
 using namespace subdiv;
 
+// The k-th largest of three: by stress they need not be in the order of the stretches.
+double ordered(Eigen::Vector3d values, int order) {
+  std::sort(values.data(), values.data() + 3);
+  return values[2 - order];
+}
+
 // Material at the points, interpolated from values at the nodes; an apex takes the mean of its base, which is as
 // far as pictures need it.
 void set_lame(ElementBlock& block, const NodalFields& fields, std::size_t vertex_count) {
   const auto nodes = static_cast<std::size_t>(block.kind->node_count);
+  if (fields.prestress.size() > 0 && !fields.prestress.isZero(0)) block.prestress.resize(block.mu.size());
   for (std::size_t e = 0; e < block.element_count(); ++e)
     for (int q = 0; q < block.kind->point_count; ++q) {
-      double young = 0, poisson = 0, sum = 0;
+      double young = 0, poisson = 0, prestress = 0, sum = 0;
       for (std::size_t a = 0; a < nodes; ++a) {
         const std::uint32_t node = block.nodes[e * nodes + a];
         if (node >= vertex_count) continue;
         const double weight = block.kind->shapes[static_cast<std::size_t>(q) * nodes + a];
         young += weight * fields.young_modulus[node];
         poisson += weight * fields.poisson_ratio[node];
+        if (!block.prestress.empty()) prestress += weight * fields.prestress[node];
         sum += weight;
       }
       const Lame point = lame(young / sum, poisson / sum);
       block.mu[block.point_index(e, q)] = point.mu;
       block.lambda[block.point_index(e, q)] = point.lambda;
+      if (!block.prestress.empty()) block.prestress[block.point_index(e, q)] = prestress / sum;
     }
 }
 
@@ -79,12 +91,61 @@ Eigen::Matrix3Xd ShownElements::with_apexes(const Eigen::Matrix3Xd& vertices) co
   return nodes;
 }
 
-Eigen::VectorXd ShownElements::equivalent_strain(const Eigen::Matrix3Xd& vertices) const {
-  return fem::equivalent_strain(blocks_, with_apexes(vertices)).head(vertex_count_);
+Eigen::VectorXd ShownElements::recovered(const Eigen::Matrix3Xd& vertices, const OfBlock& point_values) const {
+  const Eigen::Matrix3Xd nodes = with_apexes(vertices);
+  std::vector<Eigen::VectorXd> values;
+  for (const ElementBlock& block : blocks_) values.push_back(point_values(block, nodes));
+  return recover_at_nodes(blocks_, values, static_cast<std::size_t>(nodes.cols())).head(vertex_count_);
 }
 
-Eigen::VectorXd ShownElements::von_mises_stress(const Eigen::Matrix3Xd& vertices) const {
-  return fem::von_mises_stress(blocks_, with_apexes(vertices)).head(vertex_count_);
+Eigen::VectorXd ShownElements::equivalent_strain(const Eigen::Matrix3Xd& vertices) const {
+  return recovered(vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    return fem::equivalent_strain(block, nodes);
+  });
+}
+
+Eigen::VectorXd ShownElements::von_mises_stress(const Eigen::Matrix3Xd& vertices, StressLaw law) const {
+  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    return fem::von_mises_stress(block, nodes, law);
+  });
+}
+
+Eigen::VectorXd ShownElements::principal_strain(const Eigen::Matrix3Xd& vertices, int order) const {
+  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    const Eigen::Matrix3Xd stretches = principal_stretches(block, nodes);
+    Eigen::VectorXd result(stretches.cols());
+    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = stretches(order, i) - 1;
+    return result;
+  });
+}
+
+Eigen::VectorXd ShownElements::principal_stress(const Eigen::Matrix3Xd& vertices, int order, StressLaw law) const {
+  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    const Eigen::Matrix3Xd stresses = principal_stresses(block, nodes, law ? law : stress_law("corotational"));
+    Eigen::VectorXd result(stresses.cols());
+    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = ordered(stresses.col(i), order);
+    return result;
+  });
+}
+
+Eigen::VectorXd ShownElements::pressure(const Eigen::Matrix3Xd& vertices, StressLaw law) const {
+  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    const Eigen::Matrix3Xd stresses = principal_stresses(block, nodes, law ? law : stress_law("corotational"));
+    Eigen::VectorXd result(stresses.cols());
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      result[i] = -(stresses(0, i) + stresses(1, i) + stresses(2, i)) / 3;
+    return result;
+  });
+}
+
+Eigen::VectorXd ShownElements::distortion(const Eigen::Matrix3Xd& vertices) const {
+  return recovered(vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+    const Eigen::Matrix3Xd stretches = principal_stretches(block, nodes);
+    Eigen::VectorXd result(stretches.cols());
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      result[i] = stretches(0, i) * stretches(1, i) * stretches(2, i) - 1;
+    return result;
+  });
 }
 
 }  // namespace argil::fem

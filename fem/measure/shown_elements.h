@@ -5,10 +5,12 @@
 // square of the cell.
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "fem/discretization.h"
 #include "fem/element_block.h"
+#include "fem/measure/stress.h"
 
 namespace argil::fem {
 
@@ -17,11 +19,21 @@ class ShownElements {
   /// `rest_vertices`: 3 x vertices of the finest level, as shown at rest.
   ShownElements(const subdiv::Solid& finest, const Eigen::Matrix3Xd& rest_vertices, const NodalFields& fields);
 
-  /// Equivalent strain and von Mises stress [Pa] per vertex, from the vertices as shown now.
+  /// Per vertex, from the vertices as shown now. Stresses [Pa] are by the corotational law without `law`.
   [[nodiscard]] Eigen::VectorXd equivalent_strain(const Eigen::Matrix3Xd& vertices) const;
-  [[nodiscard]] Eigen::VectorXd von_mises_stress(const Eigen::Matrix3Xd& vertices) const;
+  [[nodiscard]] Eigen::VectorXd von_mises_stress(const Eigen::Matrix3Xd& vertices, StressLaw law = nullptr) const;
+  /// Principal strains σ − 1 and stresses; `order` 0 is the largest, 2 the smallest.
+  [[nodiscard]] Eigen::VectorXd principal_strain(const Eigen::Matrix3Xd& vertices, int order) const;
+  [[nodiscard]] Eigen::VectorXd principal_stress(const Eigen::Matrix3Xd& vertices, int order,
+                                                 StressLaw law = nullptr) const;
+  /// Minus the mean of the principal stresses.
+  [[nodiscard]] Eigen::VectorXd pressure(const Eigen::Matrix3Xd& vertices, StressLaw law = nullptr) const;
+  /// det F − 1: the change of volume, by its share (papers/004, Fig. 13: "volumetric distortions").
+  [[nodiscard]] Eigen::VectorXd distortion(const Eigen::Matrix3Xd& vertices) const;
 
  private:
+  using OfBlock = std::function<Eigen::VectorXd(const ElementBlock&, const Eigen::Matrix3Xd& nodes)>;
+  [[nodiscard]] Eigen::VectorXd recovered(const Eigen::Matrix3Xd& vertices, const OfBlock& point_values) const;
   [[nodiscard]] Eigen::Matrix3Xd with_apexes(const Eigen::Matrix3Xd& vertices) const;
 
   std::vector<ElementBlock> blocks_;

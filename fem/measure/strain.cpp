@@ -11,7 +11,6 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace argil::fem {
-namespace {
 
 Eigen::Matrix3d deformation_gradient(const ElementBlock& block, std::size_t element, int point,
                                      const Eigen::Matrix3Xd& nodes) {
@@ -24,8 +23,6 @@ Eigen::Matrix3d deformation_gradient(const ElementBlock& block, std::size_t elem
       slopes.col(axis) += gradients[3 * n + axis] * (nodes.col(names[n]) - nodes.col(names[0]));
   return slopes * block.inverse_rest_jacobians[block.point_index(element, point)];
 }
-
-}  // namespace
 
 Eigen::Matrix3Xd principal_stretches(const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
   const int points = block.kind->point_count;

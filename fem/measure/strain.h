@@ -9,6 +9,10 @@
 
 namespace argil::fem {
 
+/// F = ∂x/∂X at a quadrature point; `nodes` are present positions, 3 x nodes of the table.
+[[nodiscard]] Eigen::Matrix3d deformation_gradient(const ElementBlock& block, std::size_t element, int point,
+                                                   const Eigen::Matrix3Xd& nodes);
+
 /// Eigenvalues of S at the points of a block, 3 x points, σ₀ ≥ σ₁ ≥ |σ₂|; σ₂ is negative where the element is
 /// inside out. `nodes` are present positions, 3 x nodes of the table. In parallel.
 [[nodiscard]] Eigen::Matrix3Xd principal_stretches(const ElementBlock& block, const Eigen::Matrix3Xd& nodes);

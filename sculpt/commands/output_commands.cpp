@@ -19,10 +19,19 @@ namespace argil::sculpt {
 
 namespace {
 
+std::shared_ptr<const ReferenceShape> reference_of(const Session& session, const Arguments& arguments) {
+  if (!arguments.has("reference")) return nullptr;
+  const ComparedMesh mesh =
+      read_compared_mesh(session.path_to_read(arguments.word("reference")), session.document().limits.cells);
+  return std::make_shared<const ReferenceShape>(mesh);
+}
+
 double measured_value(const Session& session, const Arguments& arguments) {
   require_solid(session);
   MeasureQuery query{.name = arguments.word("measure"), .at = std::nullopt, .where = arguments.expression("where")};
   if (arguments.has("at")) query.at = arguments.vector("at");
+  const auto reference = reference_of(session, arguments);
+  query.reference = reference.get();
   return measure(session.document(), query);
 }
 
@@ -86,7 +95,9 @@ void save(Session& session, const Arguments& arguments) {
   io::WriteOptions options;
   if (arguments.has("encoding")) options.encoding = io::encoding_by_word(arguments.word("encoding"));
   options.version = arguments.word("version", "");
-  for (const std::string& note : save_document(session.document(), path, level, options)) session.print(note);
+  const auto reference = reference_of(session, arguments);
+  for (const std::string& note : save_document(session.document(), path, level, options, reference.get()))
+    session.print(note);
 }
 
 // One picture of two halves: the control cage alone, and the scene.
@@ -121,6 +132,32 @@ void render(Session& session, const Arguments& arguments) {
     request.range = {range[0], range[1]};
     if (request.field.empty()) throw Error(ErrorCode::bad_input, "a range is of a field; add `field strain`");
   }
+  if (arguments.has("colours")) {
+    const std::string& map = arguments.word("colours");
+    request.colours = map == "cividis"    ? ColourMap::cividis
+                      : map == "balanced" ? ColourMap::balanced
+                                          : ColourMap::viridis;
+    if (request.field.empty())
+      throw Error(ErrorCode::bad_input, "colours are those of a field; add `field strain`");
+  }
+  if (arguments.has("reference") && request.field != "error")
+    throw Error(ErrorCode::bad_input, "a reference is for `field error`; to see its edges, write `overlay FILE`");
+  request.reference = reference_of(session, arguments);
+  request.volume = arguments.has("volume");
+  if (arguments.has("opacity") && !request.volume)
+    throw Error(ErrorCode::bad_input, "opacity is that of a volume; add `volume field strain`");
+  request.opacity = arguments.number("opacity", 1);
+  if (arguments.has("frames"))
+    request.frames = arguments.word("frames") == "rotated" ? FrameKind::rotated : FrameKind::tangent;
+  if (arguments.has("corner")) request.corner = static_cast<std::uint32_t>(arguments.integer("corner", 0));
+  if (arguments.has("overlay")) {
+    if (arguments.word("overlay") == "rest")
+      request.overlay_rest = true;
+    else
+      request.overlay =
+          read_compared_mesh(session.path_to_read(arguments.word("overlay")), session.document().limits.cells)
+              .surface;
+  }
   if (arguments.has("clip")) {
     const auto& plane = arguments.numbers("clip");
     request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
@@ -147,7 +184,8 @@ void render(Session& session, const Arguments& arguments) {
   }
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
-  const std::string wire = arguments.word("wire", "cells");
+  // The cells of both sides of a translucent body would hide it.
+  const std::string wire = arguments.word("wire", request.volume ? "control" : "cells");
   options.wireframe = wire != "none";
   request.control_wire = wire == "control";
   options.light_theme = arguments.has("light");
@@ -179,13 +217,22 @@ std::vector<Command> output_commands() {
                                .required = true,
                                .choices = measures};
   const Parameter at{.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3};
+  const Parameter reference{.name = "reference",
+                            .type = ArgumentType::text,
+                            .help =
+                                "of an error: a mesh file beneath the session's own folder. With a point field "
+                                "displacement, as save writes it, it is compared at common material points, else "
+                                "by the distance to its surface"};
   const Parameter where{
       .name = "where", .type = ArgumentType::expression, .help = "only these nodes (reactions: control vertices)"};
   return {
       {.name = "measure",
        .summary = "Prints a measure, and keeps it in the summary.",
-       .parameters =
-           {measure_name, at, {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"}, where},
+       .parameters = {measure_name,
+                      at,
+                      {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"},
+                      where,
+                      reference},
        .example = "measure displacement_z at 0.3 0.3 0.05",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "gravity 0 0 -9.81", "pin where z < 0.001",
                   "step 5"},
@@ -202,7 +249,8 @@ std::vector<Command> output_commands() {
                       {.name = "above", .help = "it must be larger"},
                       {.name = "below", .help = "it must be smaller"},
                       at,
-                      where},
+                      where,
+                      reference},
        .example = "expect volume 0.036 within 1%",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .effect = Effect::output,
@@ -229,57 +277,83 @@ std::vector<Command> output_commands() {
                       {.name = "field",
                        .type = ArgumentType::word,
                        .help = "colours of a .glb or .gltf",
-                       .choices = shown_field_names()}},
+                       .choices = shown_field_names()},
+                      {.name = "reference",
+                       .type = ArgumentType::text,
+                       .help = "a mesh file as of measure: the distance to it goes along as the field error"}},
        .example = "save chair.vtu",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .effect = Effect::output,
        .run = save},
       {.name = "render",
        .summary = "Makes a picture of the solid as it is now.",
-       .parameters = {{.name = "file",
-                       .type = ArgumentType::text,
-                       .help = "a .png beneath the folder given with --out",
-                       .positional = true,
-                       .required = true},
-                      {.name = "field",
-                       .type = ArgumentType::word,
-                       .help = "colours, with a legend",
-                       .choices = shown_field_names()},
-                      {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
-                      {.name = "clip",
-                       .help = "a plane (point, then normal): whole cells beyond it are taken away",
-                       .count = 6},
-                      {.name = "style",
-                       .type = ArgumentType::word,
-                       .help = "how",
-                       .choices = {"solid", "wireframe", "boundary_wireframe"}},
-                      {.name = "cage", .help = "with the control cage", .flag = true},
-                      {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
-                      {.name = "plain", .help = "without arrows and pins", .flag = true},
-                      {.name = "wire",
-                       .type = ArgumentType::word,
-                       .help = "edges drawn: of the finest cells, of the control cells, none",
-                       .choices = {"cells", "control", "none"}},
-                      {.name = "light", .help = "on light ground", .flag = true},
-                      {.name = "size",
-                       .type = ArgumentType::integer,
-                       .help = "width and height",
-                       .unit = "px",
-                       .count = 2,
-                       .low = 1,
-                       .high = 4096},
-                      {.name = "from", .help = "direction from the solid to the eye", .count = 3},
-                      {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
-                      {.name = "net",
-                       .type = ArgumentType::integer,
-                       .help = "this cell of the finest level in its 4×4×4 net instead",
-                       .low = 0,
-                       .high = 4e9},
-                      {.name = "net_steps",
-                       .type = ArgumentType::integer,
-                       .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
-                       .low = 1,
-                       .high = 4}},
+       .parameters =
+           {{.name = "file",
+             .type = ArgumentType::text,
+             .help = "a .png beneath the folder given with --out",
+             .positional = true,
+             .required = true},
+            {.name = "field",
+             .type = ArgumentType::word,
+             .help = "colours, with a legend",
+             .choices = shown_field_names()},
+            {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
+            {.name = "colours",
+             .type = ArgumentType::word,
+             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis",
+             .choices = {"viridis", "cividis", "balanced"}},
+            reference,
+            {.name = "volume",
+             .help = "the field inside as a translucent volume, in place of the surface",
+             .flag = true},
+            {.name = "opacity", .help = "of the volume; 1 is usual", .low = 0.01, .high = 100},
+            {.name = "frames",
+             .type = ArgumentType::word,
+             .help = "axes u, v, w of each hexahedron: tangent stretch and shear with it, rotated only turn",
+             .choices = {"tangent", "rotated"}},
+            {.name = "corner",
+             .type = ArgumentType::integer,
+             .help = "instead, the most sheared corner at this vertex of the finest level: its sides to a "
+                     "and b, and to a′ and b′ without shear",
+             .low = 0,
+             .high = 4e9},
+            {.name = "overlay",
+             .type = ArgumentType::text,
+             .help = "edges of another mesh: a volume or surface file, or rest for the solid at rest"},
+            {.name = "clip",
+             .help = "a plane (point, then normal): whole cells beyond it are taken away",
+             .count = 6},
+            {.name = "style",
+             .type = ArgumentType::word,
+             .help = "how",
+             .choices = {"solid", "wireframe", "boundary_wireframe"}},
+            {.name = "cage", .help = "with the control cage", .flag = true},
+            {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
+            {.name = "plain", .help = "without arrows and pins", .flag = true},
+            {.name = "wire",
+             .type = ArgumentType::word,
+             .help = "edges drawn: of the finest cells, of the control cells, none",
+             .choices = {"cells", "control", "none"}},
+            {.name = "light", .help = "on light ground", .flag = true},
+            {.name = "size",
+             .type = ArgumentType::integer,
+             .help = "width and height",
+             .unit = "px",
+             .count = 2,
+             .low = 1,
+             .high = 4096},
+            {.name = "from", .help = "direction from the solid to the eye", .count = 3},
+            {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
+            {.name = "net",
+             .type = ArgumentType::integer,
+             .help = "this cell of the finest level in its 4×4×4 net instead",
+             .low = 0,
+             .high = 4e9},
+            {.name = "net_steps",
+             .type = ArgumentType::integer,
+             .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
+             .low = 1,
+             .high = 4}},
        .example = "render chair.png field strain",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "pin where x < 0.01", "gravity 0 0 -9.81",
                   "step 10"},

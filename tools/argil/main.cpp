@@ -12,6 +12,7 @@
 
 #include "io/volume_formats.h"
 #include "sculpt/near_names.h"
+#include "sculpt/step_trace.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
 
@@ -65,6 +66,8 @@ int run(int argc, char** argv) {
   replay_app->add_option("--until", replaying.until, "stop after this many simulation steps")
       ->check(CLI::PositiveNumber);
   replay_app->add_option("--hash-trace", replaying.hash_trace, "write one state hash a step, for `argil diff`");
+  replay_app->add_option("--trace", replaying.trace,
+                         "write a CSV row a step: energies by kind, momenta, volume, reactions, iterations, time");
   replay_app->add_option("--set", replaying.overrides,
                          "stand in for a command of the session: --set space=cubic, --set levels=1");
   replay_app->add_option("--max-cells", replaying.limits.cells, "refuse to make more cells")->capture_default_str();
@@ -75,6 +78,8 @@ int run(int argc, char** argv) {
   replay_app->add_flag("--quiet", replaying.quiet, "no progress, no messages");
   replay_app->add_flag("!--no-pictures", replaying.pictures, "skip `render`");
   replay_app->footer(
+      "Columns of --trace: " + argil::sculpt::step_trace_header() +
+      ".\n"
       "summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
       "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
       "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "

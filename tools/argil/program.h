@@ -14,7 +14,7 @@ namespace argil::tools {
 inline constexpr int k_well = 0, k_expectation_failed = 1, k_bad_input = 2, k_own_bug = 3;
 
 struct ReplayArguments {
-  std::filesystem::path session, out, hash_trace;
+  std::filesystem::path session, out, hash_trace, trace;
   std::filesystem::path files;  // names in the session are read beneath it; empty: beneath the session's folder
   int threads = 0;              // 0: all
   long until = -1;

@@ -129,6 +129,7 @@ int replay(const ReplayArguments& arguments) {
   options.read_root = arguments.files.empty() ? arguments.session.parent_path() : arguments.files;
   options.out = arguments.out.empty() ? std::filesystem::path("out") / arguments.session.stem() : arguments.out;
   options.hash_trace = arguments.hash_trace;
+  options.step_trace = arguments.trace;
   options.overrides = overrides;
   options.until_step = arguments.until;
   options.limits = arguments.limits;
@@ -139,6 +140,7 @@ int replay(const ReplayArguments& arguments) {
 
   check_apart(arguments.session, options.out / "journal.argil", "choose another folder with --out");
   check_apart(arguments.session, options.hash_trace, "choose another file with --hash-trace");
+  check_apart(arguments.session, options.step_trace, "choose another file with --trace");
   sculpt::Session session(options);
   try {
     session.run_text(text, arguments.session.string());

@@ -88,6 +88,16 @@ void VertexArray::upload(const void* records, std::size_t count, std::size_t siz
   }
 }
 
+Image::Image(const Gl& gl, int width, int height, const std::vector<std::uint8_t>& rgba) : gl_(&gl) {
+  gl.GenTextures(1, &texture_);
+  bind_texture(GL_TEXTURE0);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+}
+
 Target::Target(const Gl& gl, int width, int height, bool depth) : gl_(&gl), width_(width), height_(height) {
   gl.GenTextures(1, &texture_);
   gl.ActiveTexture(GL_TEXTURE0);

@@ -2,6 +2,7 @@
 // OpenGL objects that free themselves. Each keeps the table of functions that made it and must die while its
 // context is current.
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,6 +60,24 @@ class VertexArray {
   const Gl* gl_;
   GLuint array_ = 0, vertices_ = 0, indices_ = 0;
   GLsizei count_ = 0;
+};
+
+/// An RGBA8 texture of given pixels, lowest row first, without filtering.
+class Image {
+ public:
+  Image(const Gl& gl, int width, int height, const std::vector<std::uint8_t>& rgba);
+  ~Image() { gl_->DeleteTextures(1, &texture_); }
+  Image(const Image&) = delete;
+  Image& operator=(const Image&) = delete;
+
+  void bind_texture(GLenum unit) const {
+    gl_->ActiveTexture(unit);
+    gl_->BindTexture(GL_TEXTURE_2D, texture_);
+  }
+
+ private:
+  const Gl* gl_;
+  GLuint texture_ = 0;
 };
 
 /// An RGBA8 target of a texture, with a depth buffer if asked for.

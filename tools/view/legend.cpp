@@ -82,7 +82,8 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
   const float tall = bar_height(pixel, height), bar_width = k_bar_width * pixel;
   const float top = std::round(k_top * pixel);
   const float right = std::round(static_cast<float>(width) - k_right * pixel), left = std::round(right - bar_width);
-  canvas.bar(left, top, right - left, tall, 3 * pixel, [](float y) { return viridis(1 - y); });
+  canvas.bar(left, top, right - left, tall, 3 * pixel,
+             [&](float y) { return field_colour(map_colours(legend.map), 1 - y); });
   canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
 
   const int most = std::max(1, static_cast<int>(tall / (26 * pixel)));

@@ -8,6 +8,7 @@
 #include "subdiv/error.h"
 #include "tools/view/legend.h"
 #include "tools/view/scene_painter.h"
+#include "tools/view/volume_rays.h"
 
 namespace argil::view {
 
@@ -36,6 +37,20 @@ void check(const sculpt::PictureOptions& options) {
                     options.view_from.x(), options.view_from.y(), options.view_from.z()));
 }
 
+void check_volume(const sculpt::SceneVolume& volume, bool has_legend) {
+  if (!has_legend)
+    throw Error(ErrorCode::bad_input,
+                "expected a legend with the volume, found none; it says what the colours mean");
+  if (!(volume.opacity > 0 && std::isfinite(volume.opacity)))
+    throw Error(ErrorCode::bad_input,
+                fmt::format("expected an opacity above 0, found {}; 1 is usual", volume.opacity));
+  for (std::size_t i = 0; i < volume.positions.size(); ++i)
+    if (!volume.positions[i].allFinite() || !std::isfinite(volume.values[i]))
+      throw Error(ErrorCode::bad_geometry,
+                  "expected finite places and values to draw, found one that is not; undo to the last good state",
+                  fmt::format("point {} of the volume", i));
+}
+
 /// Every place of the scene that must be seen; all are checked.
 std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   std::vector<Eigen::Vector3f> all;
@@ -54,6 +69,10 @@ std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   for (std::size_t i = 0; i < scene.arrows.size(); ++i)
     for (const Eigen::Vector3f& end : {scene.arrows[i].from, scene.arrows[i].to}) add(end, "arrow", i);
   for (std::size_t i = 0; i < scene.pins.size(); ++i) add(scene.pins[i], "pin", i);
+  for (std::size_t i = 0; i < scene.lines.size(); ++i)
+    for (const auto& ends : scene.lines[i].lines)
+      for (const Eigen::Vector3f& end : ends) add(end, "line of set", i);
+  if (scene.volume) check_volume(*scene.volume, scene.legend.has_value());
   for (std::size_t i = 0; i < scene.labels.size(); ++i) add(scene.labels[i].at, "label", i);
   for (std::size_t i = 0; i < scene.surface.values.size(); ++i)
     if (!std::isfinite(scene.surface.values[i]))
@@ -84,6 +103,10 @@ class OffscreenRenderer final : public sculpt::Renderer {
 
     context_.make_current();
     painter_.load(scene, place, options);
+    if (scene.volume)
+      painter_.set_volume(
+          volume_picture(*scene.volume, *scene.legend, place, camera, options.width, options.height), options.width,
+          options.height);
     const Sampling sampling{options.width, options.height,
                             static_cast<int>(std::lround(std::sqrt(options.samples))), pixel};
     sculpt::Picture picture;

@@ -12,10 +12,34 @@ constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
 constexpr float k_hidden_pin = 0.32F;
+constexpr float k_wire_in_volume = 0.45F;
 // Shorter lines fade, so that a fine mesh does not cover what it lies on [pixels].
 constexpr float k_wire_length = 22, k_cage_length = 8;
 
 using Line = std::array<Eigen::Vector3f, 2>;
+
+struct LineStyle {
+  Colour tint;
+  float half_width = 0.55F, full_length = k_cage_length;
+};
+
+LineStyle style_of(sculpt::LineLook look, const Theme& theme) {
+  switch (look) {
+    case sculpt::LineLook::overlay:
+      break;
+    case sculpt::LineLook::axis_u:
+      return {theme.axis_u, 0.9F, 1};
+    case sculpt::LineLook::axis_v:
+      return {theme.axis_v, 0.9F, 1};
+    case sculpt::LineLook::axis_w:
+      return {theme.axis_w, 0.9F, 1};
+    case sculpt::LineLook::side:
+      return {theme.side, 1.6F, 1};
+    case sculpt::LineLook::rest_side:
+      return {theme.rest_side, 1.6F, 1};
+  }
+  return {theme.overlay};
+}
 
 void set_colour(const Gl& gl, GLint place, const Colour& c) {
   gl.Uniform4f(place, c.red, c.green, c.blue, c.alpha);
@@ -32,6 +56,7 @@ ScenePainter::ScenePainter(const Gl& gl)
       line_program_(gl, shaders::k_line_vertex, shaders::k_line_fragment),
       mark_program_(gl, shaders::k_mark_vertex, shaders::k_mark_fragment),
       arrow_program_(gl, shaders::k_arrow_vertex, shaders::k_arrow_fragment),
+      image_program_(gl, shaders::k_whole_vertex, shaders::k_image_fragment),
       shadow_(gl),
       nothing_(gl),
       surface_(gl),
@@ -55,7 +80,7 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
   SurfaceMesh mesh = surface_mesh(scene.surface, positions);
   if (draws_surface_) measure_openness(*gl_, depth_program_, mesh);
   surface_.set(mesh.vertices, k_surface_attributes, 0, mesh.triangles);
-  has_shadow_ = options.contact_shadow && draws_surface_ && !mesh.triangles.empty();
+  has_shadow_ = options.contact_shadow && (draws_surface_ || scene.volume) && !mesh.triangles.empty();
   if (has_shadow_) shadow_.prepare(mesh, surface_);
   draws_surface_ = draws_surface_ && !mesh.triangles.empty();
 
@@ -66,6 +91,15 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
   for (const auto& ends : scene.cage_lines) lines.push_back({place(ends[0]), place(ends[1])});
   cage_lines_.set(lines, k_line_attributes, 1);
 
+  line_sets_.clear();
+  for (const sculpt::SceneLines& set : scene.lines) {
+    lines.clear();
+    for (const auto& ends : set.lines) lines.push_back({place(ends[0]), place(ends[1])});
+    line_sets_.push_back({set.look, std::make_unique<VertexArray>(*gl_)});
+    line_sets_.back().lines->set(lines, k_line_attributes, 1);
+  }
+  volume_.reset();
+
   const auto placed = [&](const std::vector<Eigen::Vector3f>& all) {
     std::vector<Eigen::Vector3f> result;
     for (const Eigen::Vector3f& position : all) result.push_back(place(position));
@@ -75,6 +109,40 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
   pins_.set(placed(scene.pins), k_mark_attributes, 1);
   arrow_ends_.clear();
   for (const sculpt::SceneArrow& arrow : scene.arrows) arrow_ends_.push_back({place(arrow.from), place(arrow.to)});
+}
+
+void ScenePainter::set_volume(const std::vector<float>& picture, int width, int height) {
+  std::vector<std::uint8_t> rgba(picture.size());
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    for (std::size_t i = 0; i < row; ++i)
+      rgba[(static_cast<std::size_t>(height) - 1 - y) * row + i] =
+          static_cast<std::uint8_t>(255 * picture[y * row + i] + 0.5F);
+  volume_ = std::make_unique<Image>(*gl_, width, height, rgba);
+}
+
+void ScenePainter::draw_volume(const Sampling& sampling, int x, int y) const {
+  const Gl& gl = *gl_;
+  image_program_.use();
+  volume_->bind_texture(GL_TEXTURE0);
+  gl.Uniform1i(image_program_.at("image"), 0);
+  gl.Uniform2f(image_program_.at("tile_origin"), static_cast<float>(x), static_cast<float>(y));
+  gl.Uniform2f(image_program_.at("samples"), static_cast<float>(sampling.width * sampling.factor),
+               static_cast<float>(sampling.height * sampling.factor));
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Enable(GL_BLEND);
+  gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  nothing_.bind();
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Disable(GL_BLEND);
+}
+
+void ScenePainter::draw_line_sets(const Camera& camera, const Sampling& sampling, float opacity) const {
+  for (const LineSet& set : line_sets_) {
+    LineStyle style = style_of(set.look, *theme_);
+    style.tint.alpha *= opacity;
+    draw_lines(*set.lines, camera, sampling, style.half_width, style.tint, style.full_length);
+  }
 }
 
 void ScenePainter::hide_behind_surface(bool hide) const {
@@ -191,6 +259,7 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   if (has_shadow_) shadow_.paint(camera, theme.shadow);
 
+  if (volume_) draw_volume(sampling, x, y);
   gl.DepthFunc(GL_LEQUAL);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   if (draws_surface_) {
@@ -202,8 +271,9 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
     if (field_)
       gl.Uniform2f(surface_program_.at("value_range"), static_cast<float>(field_->low),
                    static_cast<float>(field_->high));
-    for (int i = 0; i < k_viridis_size; ++i) {
-      const auto& c = k_viridis[static_cast<std::size_t>(i)];
+    const MapColours& colours = map_colours(field_ ? field_->map : sculpt::ColourMap::viridis);
+    for (std::size_t i = 0; i < k_map_size; ++i) {
+      const auto& c = colours[i];
       const std::string name = "field_colours[" + std::to_string(i) + "]";
       gl.Uniform3f(surface_program_.at(name.c_str()), c[0], c[1], c[2]);
     }
@@ -215,15 +285,19 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   gl.DepthMask(GL_FALSE);
   hide_behind_surface(draws_surface_);
   const Colour& wire_tint = !draws_surface_ ? theme.wire_alone : field_ ? theme.wire_on_field : theme.wire_on_clay;
-  if (draws_wire_) draw_lines(wire_, camera, sampling, 0.5F, wire_tint, k_wire_length);
+  Colour shown_wire = wire_tint;
+  if (volume_) shown_wire.alpha *= k_wire_in_volume;  // there it only says where the body ends
+  if (draws_wire_) draw_lines(wire_, camera, sampling, 0.5F, shown_wire, k_wire_length);
 
   Colour hidden_cage = theme.cage;
   hidden_cage.alpha *= k_hidden;
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
+  draw_line_sets(camera, sampling, k_hidden);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
+  draw_line_sets(camera, sampling, 1);
   draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);

@@ -2,7 +2,9 @@
 // Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn
 // in tiles and at several samples a pixel.
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "tools/view/colour.h"
 #include "tools/view/ground_shadow.h"
@@ -23,6 +25,8 @@ class ScenePainter {
 
   /// Takes a scene in picture coordinates to the graphics card. Binds other targets.
   void load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options);
+  /// A picture of the inside in place of the surface: colours multiplied by opacity, top row first (volume_rays.h).
+  void set_volume(const std::vector<float>& picture, int width, int height);
   /// Draws the part of the picture whose lower left sample is (x, y) into the bound target.
   void paint(const Camera& camera, const Sampling& sampling, int x, int y) const;
   /// The same part with the surface's cell ids as bytes, 255 where nothing is; no antialiasing, factor 1.
@@ -37,14 +41,22 @@ class ScenePainter {
                   const Colour& tint, float full_length) const;
   void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
                   const Colour& tint, const Colour& ring, float opacity) const;
+  void draw_volume(const Sampling& sampling, int x, int y) const;
+  void draw_line_sets(const Camera& camera, const Sampling& sampling, float opacity) const;
   void draw_arrows(const Camera& camera, const Sampling& sampling) const;
   void hide_behind_surface(bool hide) const;
 
   const Gl* gl_;
   Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
-      arrow_program_;
+      arrow_program_, image_program_;
   GroundShadow shadow_;
   VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, pins_;
+  struct LineSet {
+    sculpt::LineLook look;
+    std::unique_ptr<VertexArray> lines;
+  };
+  std::vector<LineSet> line_sets_;
+  std::unique_ptr<Image> volume_;
   mutable VertexArray arrows_;  // their thickness depends on the camera
   std::vector<sculpt::SceneArrow> arrow_ends_;
   std::optional<sculpt::SceneLegend> field_;

@@ -27,6 +27,14 @@ void main() {
   colour = vec4(mix(bottom, top, smoothstep(-0.05, 1.05, height)) + noise / 255.0, 1.0);
 })";
 
+/// A picture over the whole target; tiles show their part of it.
+inline constexpr const char* k_image_fragment = R"(
+precision highp float;
+uniform sampler2D image;
+uniform vec2 tile_origin, samples;  // of the whole picture
+out vec4 colour;
+void main() { colour = texture(image, (gl_FragCoord.xy + tile_origin) / samples); })";
+
 inline constexpr const char* k_surface_vertex = R"(
 precision highp float;
 layout(location = 0) in vec3 position;

@@ -1,0 +1,196 @@
+#include "sculpt/physics_picture.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "fem/elements/element_kind.h"
+#include "fem/measure/cell_tetrahedra.h"
+#include "sculpt/scene.h"
+#include "subdiv/build.h"
+#include "subdiv/error.h"
+#include "subdiv/neighbourhood.h"
+#include "subdiv/radial_edge.h"
+
+namespace argil::sculpt {
+
+namespace {
+
+using namespace subdiv;
+
+constexpr double k_axis_length = 0.35;
+
+Eigen::Vector3d column(const Eigen::Matrix3Xd& positions, VertexId v) {
+  return positions.col(static_cast<Eigen::Index>(v.index()));
+}
+
+// ∂x/∂(u, v, w) in the middle of a hexahedron.
+Eigen::Matrix3d slopes(const std::array<VertexId, 8>& box, const Eigen::Matrix3Xd& positions) {
+  Eigen::VectorXd shapes;
+  Eigen::Matrix3Xd gradients;
+  fem::trilinear_hexahedron().evaluate(Eigen::Vector3d::Constant(0.5), shapes, gradients);
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < box.size(); ++i)
+    result += column(positions, box[i]) * gradients.col(static_cast<Eigen::Index>(i)).transpose();
+  return result;
+}
+
+// R of the polar decomposition with det R = +1.
+Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& f) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
+  return u * svd.matrixV().transpose();
+}
+
+Eigen::Matrix3Xd shown(const Document& document, const Eigen::Matrix3Xd& control_points) {
+  return document.state().level == 0 ? control_points : document.surface_nodes(control_points);
+}
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+SceneVolume scene_volume(const Solid& solid, const Eigen::Matrix3Xd& positions, const CellData<std::uint8_t>& kept,
+                         const Eigen::VectorXd& values) {
+  fem::CellTetrahedra cut = fem::cell_tetrahedra(solid, kept);
+  const Eigen::Matrix3Xd points = apply(cut.points, positions);
+  const Eigen::VectorXd at_points = apply(cut.points, values);
+  // Only what the kept cells use, so that ids of dead vertices and far cells do not reach the picture.
+  std::vector<std::uint32_t> new_from_old(static_cast<std::size_t>(points.cols()), 0xffffffffU);
+  SceneVolume volume;
+  for (std::array<std::uint32_t, 4>& corners : cut.corners)
+    for (std::uint32_t& corner : corners) {
+      std::uint32_t& number = new_from_old[corner];
+      if (number == 0xffffffffU) {
+        number = static_cast<std::uint32_t>(volume.positions.size());
+        volume.positions.push_back(points.col(corner).cast<float>());
+        volume.values.push_back(static_cast<float>(at_points[corner]));
+      }
+      corner = number;
+    }
+  volume.tetrahedra = std::move(cut.corners);
+  return volume;
+}
+
+void add_frames(Scene& scene, const Document& document, FrameKind kind, const CellData<std::uint8_t>& kept) {
+  const Solid& solid = document.refinement().solid();
+  const Eigen::Matrix3Xd now = shown(document, document.positions()), rest = shown(document, document.rest());
+  std::array<SceneLines, 3> axes;
+  axes[0].look = LineLook::axis_u;
+  axes[1].look = LineLook::axis_v;
+  axes[2].look = LineLook::axis_w;
+  for (const CellId c : solid.cells()) {
+    if (cell_kind(solid, c) != CellKind::hexahedron || (kept.size() > 0 && kept[c] == 0)) continue;
+    const std::array<VertexId, 8> box = box_vertices(solid, c);
+    const Eigen::Matrix3d tangents = slopes(box, now), rest_tangents = slopes(box, rest);
+    Eigen::Matrix3d frame = tangents;
+    if (kind == FrameKind::rotated) {
+      // The rest tangents, made orthonormal the same way, then turned.
+      const Eigen::Matrix3d rotation = rotation_of(tangents * rest_tangents.inverse());
+      frame = rotation * rotation_of(rest_tangents) * std::cbrt(std::abs(rest_tangents.determinant()));
+    }
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const VertexId v : box) middle += column(now, v) / 8;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d end = middle + k_axis_length * frame.col(static_cast<Eigen::Index>(axis));
+      axes[axis].lines.push_back({middle.cast<float>(), end.cast<float>()});
+    }
+  }
+  for (SceneLines& lines : axes) scene.lines.push_back(std::move(lines));
+}
+
+ShearedCorner sheared_corner(const Document& document, std::uint32_t vertex) {
+  const Solid& solid = document.refinement().solid();
+  const VertexId i{vertex};
+  if (vertex >= solid.vertex_capacity() || !solid.is_live(i))
+    throw Error(ErrorCode::bad_input, fmt::format("there is no vertex {} at level {}; it has {}", vertex,
+                                                  document.state().level, solid.vertex_count()));
+  const Eigen::Matrix3Xd now = shown(document, document.positions()), rest = shown(document, document.rest());
+  ShearedCorner most;
+  double largest = -1;
+  for (const FaceId f : vertex_faces(solid, i)) {
+    const auto loop = solid.face_vertices(f);
+    const auto here = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), i) - loop.begin());
+    const VertexId a = loop[(here + 1) % loop.size()], b = loop[(here + loop.size() - 1) % loop.size()];
+    const Eigen::Vector3d at = column(now, i), s1 = column(now, a) - at, s2 = column(now, b) - at;
+    const Eigen::Vector3d normal = s1.cross(s2);
+    if (!(normal.norm() > 0)) continue;
+    const double rest_angle = angle_between(column(rest, a) - column(rest, i), column(rest, b) - column(rest, i));
+    const double angle = angle_between(s1, s2);
+    if (!(std::abs(rest_angle - angle) > largest)) continue;
+    largest = std::abs(rest_angle - angle);
+    const double delta = 0.5 * (rest_angle - angle);
+    const Eigen::Vector3d axis = normal.normalized();
+    most = {.vertex = vertex,
+            .a = a.value,
+            .b = b.value,
+            .face = f.value,
+            .at = at,
+            .a_now = at + s1,
+            .b_now = at + s2,
+            .a_unsheared = at + Eigen::AngleAxisd(-delta, axis) * s1,
+            .b_unsheared = at + Eigen::AngleAxisd(delta, axis) * s2,
+            .rest_angle = rest_angle,
+            .angle = angle};
+  }
+  if (largest < 0)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("no corner at vertex {} has an angle, its sides are parallel; choose another", vertex));
+  return most;
+}
+
+Scene corner_scene(const Document& document, std::uint32_t vertex) {
+  const ShearedCorner corner = sheared_corner(document, vertex);
+  const Solid& solid = document.refinement().solid();
+  const Eigen::Matrix3Xd now = shown(document, document.positions());
+  CellData<std::uint8_t> kept(solid.cell_capacity(), 0);
+  // One of the face's cells is enough to see where the corner is.
+  for (const bool back : {true, false}) {
+    const CellId owner = solid.owner(face_use(FaceId{corner.face}, back));
+    if (!owner.valid()) continue;
+    kept = CellData<std::uint8_t>(solid.cell_capacity(), 0);
+    kept[owner] = 1;
+  }
+  Scene scene;
+  scene.surface = cells_surface(solid, now, kept);
+  scene.draw_surface = false;
+  const auto single = [](const Eigen::Vector3d& v) -> Eigen::Vector3f { return v.cast<float>(); };
+  const Eigen::Vector3f at = single(corner.at), a = single(corner.a_now), b = single(corner.b_now),
+                        a_turned = single(corner.a_unsheared), b_turned = single(corner.b_unsheared);
+  scene.lines.push_back({LineLook::side, {{at, a}, {at, b}}});
+  scene.lines.push_back({LineLook::rest_side, {{at, a_turned}, {at, b_turned}}});
+  scene.lines.push_back({LineLook::overlay, {{a, a_turned}, {b, b_turned}}});
+  const auto degrees = [](double radians) { return radians * 180 / M_PI; };
+  scene.labels = {{at, fmt::format("θ = {:.1f}°, θ₀ = {:.1f}°", degrees(corner.angle), degrees(corner.rest_angle))},
+                  {a, "a"},
+                  {b, "b"},
+                  {a_turned, "a′"},
+                  {b_turned, "b′"}};
+  return scene;
+}
+
+void add_overlay(Scene& scene, const io::SurfaceMesh& surface) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const auto face = surface.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const std::uint32_t a = face[i], b = face[(i + 1) % face.size()];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  SceneLines lines{LineLook::overlay, {}};
+  for (const auto& ends : edges)
+    lines.lines.push_back(
+        {surface.positions.col(ends[0]).cast<float>(), surface.positions.col(ends[1]).cast<float>()});
+  scene.lines.push_back(std::move(lines));
+}
+
+}  // namespace argil::sculpt

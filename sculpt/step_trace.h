@@ -1,0 +1,39 @@
+#pragma once
+// What a simulation did, step by step, as numbers: `replay --trace FILE` writes one CSV row a step, for plots and
+// for finding the step at which a method goes wrong.
+
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+
+#include "sculpt/document.h"
+
+namespace argil::sculpt {
+
+struct StepRecord;
+
+/// The columns, comma-separated, units after the last underscore. Energies: elastic and kinetic; of the springs of
+/// tools and soft pins; of dead loads, gravity among them (0 at rest, falling as they do work); and their sum.
+/// Momenta and moments are about the origin. Reactions are what pins apply, tool forces what tools apply, both to
+/// the body as it stands at the end of the step, without inertia. `min_volume_ratio` is the smallest det F at a
+/// quadrature point. `residual` is Newton's last, relative to its first. Times are 0 where no clock runs.
+[[nodiscard]] const std::string& step_trace_header();
+
+/// One row, without the end of line. Numbers are the shortest that read back as the same double, in no locale.
+/// `number` counts steps from 1; `line` is that of the session. Cost: two evaluations of the model.
+[[nodiscard]] std::string step_trace_row(const Document& document, std::span<const fem::AnchorSpring> tool_springs,
+                                         const StepRecord& record, std::size_t number, int line);
+
+class StepTrace {
+ public:
+  /// Begins the file anew with the header. @throws Error (bad_input) if it cannot be written.
+  void open(const std::filesystem::path& path);
+  bool is_open() const { return file_.is_open(); }
+  void write(const std::string& row) { file_ << row << '\n'; }
+
+ private:
+  std::ofstream file_;
+};
+
+}  // namespace argil::sculpt
