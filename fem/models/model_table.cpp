@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "fem/models/mass_spring.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
@@ -28,6 +29,28 @@ std::span<const ModelKind> model_table() {
        .summary = "small strain in fixed axes, wrong under rotation",
        .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                   Formulation) { return make_linear(blocks, rest_nodes); }},
+      {.name = "mass_spring",
+       .summary = "cubes of springs along edges and face diagonals with a volume energy, exact for uniform strain",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes); },
+       .takes_prestress = false},
+      {.name = "mass_spring_m2",
+       .summary = "cubes of springs along edges and inner diagonals, held against hourglasses by more springs",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::inner}); },
+       .takes_prestress = false},
+      {.name = "mass_spring_m3",
+       .summary = "cubes of springs along edges, face and inner diagonals with a volume energy",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::both}); },
+       .takes_prestress = false},
+      {.name = "mass_spring_published",
+       .summary = "mass_spring_m2 with the corrective force as printed, which is half of what is needed",
+       .make =
+           [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, Formulation) {
+             return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::inner, SpringCorrection::printed});
+           },
+       .takes_prestress = false},
   };
   return table;
 }
