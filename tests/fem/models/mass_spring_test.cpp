@@ -74,6 +74,9 @@ class SpringBox {
           loads.forces.col(node(n)) += stress * area;
         }
       }
+    // What keeps the free body from drifting: a millionth of its stiffness, and as little of the strain.
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      loads.springs.push_back({{static_cast<std::uint32_t>(i)}, {1.0}, x.col(i), 1e-4});
     Integrator integrator(solid_.system);
     BodyState state = solid_.state;
     EXPECT_TRUE(integrator.solve_static(loads, state, {}).converged);
@@ -92,19 +95,46 @@ class SpringBox {
     return 0.5 * (gradient + gradient.transpose());
   }
 
+  /// Shear modulus by an affine shear of all sides in the plane of `axis` and the next: force along the side /
+  /// area.
+  double shear_modulus(int axis) {
+    const int next = (axis + 1) % 3;
+    const double angle = 1e-5;
+    BodyState state = solid_.state;
+    System system = solid_.system;
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+      const Eigen::Vector3d x = solid_.rest.col(i);
+      state.positions(axis, i) += angle * x[next];
+      bool on_side = false;
+      for (int a = 0; a < 3; ++a) on_side = on_side || x[a] < 1e-9 || x[a] > size_[a] - 1e-9;
+      system.fixed[static_cast<std::size_t>(i)] = on_side;
+    }
+    Integrator integrator(system);
+    EXPECT_TRUE(integrator.solve_static({}, state, {}).converged);
+    const Eigen::Matrix3Xd held = reactions(system, {}, state.positions);
+    double force = 0;
+    for (Eigen::Index i = 0; i < held.cols(); ++i)
+      if (solid_.rest(next, i) > size_[next] - 1e-9) force += held(axis, i);
+    return force / (size_[axis] * size_[3 - axis - next]) / angle;
+  }
+
   struct Constants {
     double young, poisson, shear;
   };
-  /// From a small stretch along `axis` and a shear in the plane of it and the next axis.
+  /// Young's modulus and Poisson's ratio from a small pull along `axis` with free sides.
   Constants measured(int axis = 0) {
     const int next = (axis + 1) % 3;
     const double small = 1e-5 * 1000;  // geometric nonlinearity stays at 1e-5 of the strain
-    Eigen::Matrix3d pull = Eigen::Matrix3d::Zero(), shear = pull;
+    Eigen::Matrix3d pull = Eigen::Matrix3d::Zero();
     pull(axis, axis) = small;
-    shear(axis, next) = shear(next, axis) = small;
     const Eigen::Matrix3d stretch = strain_under(pull);
-    return {small / stretch(axis, axis), -stretch(next, next) / stretch(axis, axis),
-            small / (2 * strain_under(shear)(axis, next))};
+    return {small / stretch(axis, axis), -stretch(next, next) / stretch(axis, axis), shear_modulus(axis)};
+  }
+  /// Shear modulus from tractions on all sides that are free to warp.
+  double shear_modulus_under_tractions() {
+    Eigen::Matrix3d shear = Eigen::Matrix3d::Zero();
+    shear(0, 1) = shear(1, 0) = 0.01;
+    return 0.01 / (2 * strain_under(shear)(0, 1));
   }
 
   SimulatedSolid& solid() { return solid_; }
@@ -171,16 +201,15 @@ TEST(MassSpring, SpringsAloneFollowEquationSixOfTheAppendixAndHaveEqualLameConst
       const double bulk = energy_density(Eigen::Matrix3d::Identity()) * 2 / 9;                 // ½ K 3²
       EXPECT_NEAR(shear_modulus, (4 * k.inner + 6 * k.face) / (3 * x), 1e-9 * shear_modulus);  // (4)
       EXPECT_NEAR(bulk, (4 * k.edge + 8 * k.face + 4 * k.inner) / (3 * x), 1e-9 * bulk);       // (5)
-      const double young = 9 * bulk * shear_modulus / (3 * bulk + shear_modulus), d = k.inner, f = k.face,
-                   e = k.edge;
-      // (6) presumes a cubic material; springs whose edges fit the diagonals (f + … = isotropic) satisfy it.
+      const double d = k.inner, f = k.face, e = k.edge;
+      // (6) is the modulus along the axes, of a material with cubic symmetry.
       const Eigen::Vector3d axial = Eigen::Vector3d::UnitX();
       const double c11 = 2 * energy_density(axial.asDiagonal()), c12 = (3 * bulk - c11) / 2;
       const double printed_young =
           (12 * d * f + 24 * f * f + 24 * e * e + 60 * e * f + 24 * e * d) / (x * (6 * e + 9 * f + 4 * d));
       const double printed_poisson = (2 * d + 3 * f) / (6 * e + 9 * f + 4 * d);
       EXPECT_NEAR(c12 / (c11 + c12), printed_poisson, 1e-9);
-      EXPECT_NEAR((c11 - c12) * (c11 + 2 * c12) / (c11 + c12), printed_young, 1e-9 * young);
+      EXPECT_NEAR((c11 - c12) * (c11 + 2 * c12) / (c11 + c12), printed_young, 1e-9 * printed_young);
       // The Cauchy relation: central forces give λ = G, whatever the stiffnesses, hence ν = 0.25 if isotropic.
       EXPECT_NEAR(c12, shear_modulus, 1e-9 * shear_modulus);
     }
@@ -203,17 +232,40 @@ TEST(MassSpring, PrintedCorrectionIsHalfOfWhatIsNeeded) {
   }
 }
 
-TEST(MassSpring, ElongatedBoxesAreOffByTheFiguresBelow) {
-  // 2 : 1 : 1. Nothing here is wanted: it says how wrong the constants are that are made for cubes.
+TEST(MassSpring, FacesThatAreFreeToWarpSoftenM2UnderShear) {
+  // At a corner of M2's cube one inner diagonal pulls, out of the plane of the shear as well: where no neighbour
+  // holds against it, sides warp. Face diagonals stay in their plane.
+  const double shear_modulus = 500 / 1.3;
   struct Case {
     MassSpringOptions options;
-    double young_along, young_across;
+    double one, eight;  // share of G that tractions find, on one cube and on 2³
   };
-  for (const Case& c : {Case{k_m1, 0, 0}, Case{k_m2, 0, 0}, Case{k_m3, 0, 0}}) {
+  for (const Case& c : {Case{k_m1, 1, 1}, Case{k_m2, 0.6875, 0.8675}}) {
+    SpringBox one({1, 1, 1}, {0.1, 0.1, 0.1}, {1000, 0.3, 1, 0}, c.options);
+    SpringBox eight({2, 2, 2}, {0.2, 0.2, 0.2}, {1000, 0.3, 1, 0}, c.options);
+    EXPECT_NEAR(one.shear_modulus_under_tractions() / shear_modulus, c.one, 1e-3);
+    EXPECT_NEAR(eight.shear_modulus_under_tractions() / shear_modulus, c.eight, 1e-3);
+  }
+}
+
+TEST(MassSpring, ElongatedBoxesAreOffByTheFiguresBelow) {
+  // 2 : 1 : 1, E = 1000, ν = 0.3, G = 384.6. Nothing here is wanted: it says how wrong constants are that are made
+  // for cubes.
+  struct Case {
+    MassSpringOptions options;
+    std::array<double, 3> along, across;  // E, ν, G
+  };
+  for (const Case& c : {Case{k_m1, {3810.6, 0.591, 387.7}, {491.5, 0.449, 242.3}},
+                        Case{k_m2, {3271.0, 0.750, 484.6}, {581.5, 0.200, 121.1}},
+                        Case{k_m3, {3553.6, 0.667, 436.1}, {546.4, 0.326, 181.7}}}) {
     SpringBox box({1, 1, 1}, {0.2, 0.1, 0.1}, {1000, 0.3, 1, 0}, c.options);
-    const auto along = box.measured(0), across = box.measured(1);
-    std::printf("E %g %g nu %g %g G %g %g\n", along.young, across.young, along.poisson, across.poisson, along.shear,
-                across.shear);
+    for (const int axis : {0, 1}) {
+      const auto found = box.measured(axis);
+      const auto& expected = axis == 0 ? c.along : c.across;
+      EXPECT_NEAR(found.young, expected[0], 0.1);
+      EXPECT_NEAR(found.poisson, expected[1], 1e-3);
+      EXPECT_NEAR(found.shear, expected[2], 0.1);
+    }
   }
 }
 
@@ -414,12 +466,15 @@ TEST(MassSpring, CantileverTipErrors) {
     MassSpringOptions options;
     std::array<double, 3> errors;
   };
-  for (const Case& c : {Case{"M1", k_m1, {-43, -19, -6}}, Case{"M2", k_m2, {-57, -29, -10}},
-                        Case{"M3", k_m3, {-50, -24, -8}}, Case{"published", k_published, {-57, -29, -10}}})
+  // METHODS §4 has −43/−19/−6 for M1 and −57/−29/−10 for M2; papers/001 says 45 % → 5 % of the largest error at a
+  // node.
+  for (const Case& c :
+       {Case{"M1", k_m1, {-44.00, -19.20, -6.38}}, Case{"M2", k_m2, {-56.95, -28.99, -10.16}},
+        Case{"M3", k_m3, {-51.79, -23.50, -7.77}}, Case{"published", k_published, {-56.95, -29.10, -11.10}}})
     for (std::size_t m = 0; m < 3; ++m) {
       const double error = cantilever_error(meshes[m], c.options);
       std::printf("%-10s %2d x %d x %d: %.2f %%\n", c.name, meshes[m][0], meshes[m][1], meshes[m][2], error);
-      EXPECT_NEAR(error, c.errors[m], 0.6) << c.name;
+      EXPECT_NEAR(error, c.errors[m], 0.02) << c.name;
     }
 }
 
