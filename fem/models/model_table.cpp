@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "fem/models/local_frame.h"
 #include "fem/models/mass_spring.h"
 #include "subdiv/error.h"
 
@@ -50,6 +51,17 @@ std::span<const ModelKind> model_table() {
            [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, Formulation) {
              return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::inner, SpringCorrection::printed});
            },
+       .takes_prestress = false},
+      {.name = "published",
+       .summary =
+           "papers/004's forces from edge lengths and face angles, made precise; for explicit steps with damping",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_local_frame(blocks, rest_nodes); },
+       .takes_prestress = false},
+      {.name = "published_literal",
+       .summary = "the same as its equations are printed, without force inside a body under uniform strain",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_local_frame_literal(blocks, rest_nodes); },
        .takes_prestress = false},
   };
   return table;
