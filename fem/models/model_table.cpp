@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "fem/models/hyperelastic.h"
+#include "fem/models/local_frame.h"
+#include "fem/models/mass_spring.h"
 #include "fem/models/prestress.h"
 #include "fem/models/warped_stiffness.h"
 #include "subdiv/error.h"
@@ -63,6 +65,39 @@ std::span<const ModelKind> model_table() {
        .make = make_warped_stiffness,
        .has_b_bar = true,
        .has_incompatible_modes = true},
+      {.name = "mass_spring",
+       .summary = "cubes of springs along edges and face diagonals with a volume energy, exact for uniform strain",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes); },
+       .takes_prestress = false},
+      {.name = "mass_spring_m2",
+       .summary = "cubes of springs along edges and inner diagonals, held against hourglasses by more springs",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::inner}); },
+       .takes_prestress = false},
+      {.name = "mass_spring_m3",
+       .summary = "cubes of springs along edges, face and inner diagonals with a volume energy",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::both}); },
+       .takes_prestress = false},
+      {.name = "mass_spring_published",
+       .summary = "mass_spring_m2 with the corrective force as printed, which is half of what is needed",
+       .make =
+           [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, Formulation) {
+             return make_mass_spring(blocks, rest_nodes, {DiagonalSprings::inner, SpringCorrection::printed});
+           },
+       .takes_prestress = false},
+      {.name = "published",
+       .summary =
+           "papers/004's forces from edge lengths and face angles, made precise; for explicit steps with damping",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_local_frame(blocks, rest_nodes); },
+       .takes_prestress = false},
+      {.name = "published_literal",
+       .summary = "the same as its equations are printed, without force inside a body under uniform strain",
+       .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                  Formulation) { return make_local_frame_literal(blocks, rest_nodes); },
+       .takes_prestress = false},
   };
   return table;
 }
