@@ -20,6 +20,8 @@ struct Promises {
   bool conserves_momentum = true;  // sums of force and of moment vanish
   bool rotation_invariant = true;
   double largest_rotation = 1e300;  // [rad] beyond which it is wrong
+  /// A cell that has turned inside out does not find back by itself: the guard takes such a step back.
+  bool inversion_is_error = false;
 };
 
 /// The tangent at one state. stiffness_product gives ∂²Ψ/∂x² dx (= −∂f/∂x dx), 3 x nodes.
