@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <span>
 #include <vector>
 
 #include "fem/models/force_model.h"
@@ -34,13 +35,18 @@ struct System {
   const Eigen::SparseMatrix<double>* mass = nullptr;
   const Eigen::SparseMatrix<double>* damping = nullptr;
   std::vector<std::uint8_t> fixed;  // per control point: 1 = moves exactly 0
+  /// What the model is made of, for damping in proportion to stiffness and for counting inverted cells; empty:
+  /// none.
+  std::span<const ElementBlock> blocks = {};
 };
 
-/// History of the integrator. `previous_step` 0 means that there is none (the next step is implicit Euler).
+/// History of the integrator. `previous_step` 0 means that there is none (the next step of a method of two steps is
+/// one of a method of one).
 struct BodyState {
   Eigen::Matrix3Xd positions, velocities;                    // control points, 3 x N
   Eigen::Matrix3Xd previous_positions, previous_velocities;  // one step back; empty without history
   double previous_step = 0;                                  // [s]
+  Eigen::Matrix3Xd accelerations;                            // of generalised-α; empty without
   double time = 0;                                           // [s]
 };
 

@@ -170,6 +170,7 @@ fem::System Document::system() const {
   system.rest_nodes = &d.discretization->rest_nodes;
   system.mass = &d.discretization->mass;
   system.damping = &d.discretization->damping;
+  system.blocks = d.discretization->blocks;
   system.fixed.assign(solid().vertex_capacity(), 0);
   for (const std::uint32_t v : state_.pins->control_points) system.fixed[v] = 1;
   // Ids whose element was removed carry no mass and no row: they stay where they are.
@@ -231,6 +232,7 @@ std::uint64_t Document::state_hash() const {
   add_matrix(motion.previous_velocities);
   hash.add(motion.previous_step);
   hash.add(motion.time);
+  if (motion.accelerations.cols() > 0) add_matrix(motion.accelerations);
   for (const auto& values : s.fields->values) add_matrix(values);
   hash.add(std::uint64_t{s.pins->control_points.size()});
   for (const std::uint32_t v : s.pins->control_points) hash.add(std::uint64_t{v});
@@ -274,6 +276,23 @@ std::uint64_t Document::state_hash() const {
   hash.add(std::string_view(s.tool.falloff));
   if (s.rules != subdiv::RuleSet::maccracken_joy) hash.add(std::string_view(word(s.rules)));
   if (s.model.formulation != fem::Formulation::plain) hash.add(fem::word(s.model.formulation));
+  const State initial;
+  if (s.newton_tolerance != initial.newton_tolerance || !s.line_search ||
+      s.spectral_radius != initial.spectral_radius || s.substeps != 1) {
+    hash.add(std::string_view("integrator"));
+    hash.add(s.newton_tolerance);
+    hash.add(std::uint64_t{s.line_search});
+    hash.add(s.spectral_radius);
+    hash.add(static_cast<std::uint64_t>(s.substeps));
+  }
+  if (!s.guard_on) hash.add(std::string_view("guard off"));
+  if (s.guard != fem::GuardState{}) {
+    hash.add(std::string_view("guard"));
+    hash.add(s.guard.surplus);
+    hash.add(static_cast<std::uint64_t>(s.guard.failures));
+    hash.add(std::uint64_t{s.guard.frozen});
+    hash.add(static_cast<std::uint64_t>(s.guard.cause));
+  }
   return hash.value();
 }
 

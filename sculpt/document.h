@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fem/discretization.h"
+#include "fem/dynamics/guard.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/measure/shown_elements.h"
 #include "fem/models/model_table.h"
@@ -97,6 +98,12 @@ struct State {
   fem::ModelChoice model;
   fem::Method method = fem::Method::bdf2;
   int newton_cap = 3;
+  double newton_tolerance = 1e-4;
+  bool line_search = true;
+  double spectral_radius = 0.8;  // of generalised-α
+  int substeps = 1;
+  bool guard_on = true;
+  fem::GuardState guard;
   double time_step = 1.0 / 60;  // [s]
   double tick_carry = 0;  // device ticks since the last step, less than a step: the next stroke goes on from there
   Tool tool;

@@ -24,6 +24,10 @@ struct StepRecord {
   int newton_iterations = 0, linear_iterations = 0;
   bool converged = false;
   double residual = 0;  // relative
+  fem::PreconditionerKind solver = fem::PreconditionerKind::none;  // none: explicit, or frozen
+  fem::GuardFinding finding = fem::GuardFinding::none;             // what the guard saw, and what helped
+  fem::GuardRemedy remedy = fem::GuardRemedy::none;
+  int substeps = 1;
   double ms = 0, ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "sculpt/simulation.h"
 
+#include <fmt/format.h>
+
 #include "sculpt/commands/edit.h"
 
 namespace argil::sculpt {
@@ -9,6 +11,46 @@ void require_simulation(Session& session) {
   check_discretization(session);
 }
 
+namespace {
+
+fem::StepOptions step_options(const State& state) {
+  fem::StepOptions options;
+  options.method = state.method;
+  options.newton_cap = state.newton_cap;
+  options.newton_tolerance = state.newton_tolerance;
+  options.line_search = state.line_search;
+  options.spectral_radius = state.spectral_radius;
+  return options;
+}
+
+void add(StepRecord& record, const fem::StepReport& report) {
+  record.newton_iterations += report.newton_iterations;
+  record.linear_iterations += report.linear_iterations;
+  record.converged = report.converged;
+  record.residual = report.residual;
+  record.solver = report.preconditioner;
+  record.ms_forces += report.ms_forces;
+  record.ms_tangent += report.ms_tangent;
+  record.ms_solve += report.ms_solve;
+  record.ms_line_search += report.ms_line_search;
+}
+
+const char* cause_of(fem::GuardFinding finding) {
+  switch (finding) {
+    case fem::GuardFinding::not_finite:
+      return "values that were not finite";
+    case fem::GuardFinding::energy:
+      return "energy that came from nowhere";
+    case fem::GuardFinding::inversion:
+      return "cells that turned inside out";
+    case fem::GuardFinding::none:
+      break;
+  }
+  return "nothing";
+}
+
+}  // namespace
+
 void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& tool_springs, double time_step) {
   Document& document = session.document();
   const fem::Clock clock = session.options().clock;
@@ -17,23 +59,58 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
   auto motion = std::make_shared<fem::BodyState>(*next.motion);
   fem::Loads loads = document.loads();
   loads.springs.insert(loads.springs.end(), tool_springs.begin(), tool_springs.end());
-  fem::StepOptions options;
-  options.method = next.method;
-  options.newton_cap = next.newton_cap;
-  const fem::StepReport report = document.integrator().step(loads, *motion, time_step, options, clock);
+  const fem::StepOptions options = step_options(next);
+  const bool was_frozen = next.guard.frozen;
+  StepRecord record;
+  for (int part = 0; part < next.substeps; ++part) {
+    const double length = time_step / next.substeps;
+    if (!next.guard_on) {
+      add(record, document.integrator().step(loads, *motion, length, options, clock));
+      continue;
+    }
+    const fem::GuardedReport report =
+        fem::guarded_step(document.integrator(), loads, *motion, next.guard, length, options, clock);
+    add(record, report.step);
+    record.substeps = std::max(record.substeps, report.substeps);
+    if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
+    record.remedy = std::max(record.remedy, report.remedy);
+  }
+  const bool frozen_now = next.guard.frozen && !was_frozen;
+  const fem::GuardFinding cause = next.guard.cause;
   next.motion = motion;
   document.assign(std::move(next));
-  StepRecord record;
-  record.newton_iterations = report.newton_iterations;
-  record.linear_iterations = report.linear_iterations;
-  record.converged = report.converged;
-  record.residual = report.residual;
   record.ms = clock ? 1e3 * (clock() - begin) : 0;
-  record.ms_forces = report.ms_forces;
-  record.ms_tangent = report.ms_tangent;
-  record.ms_solve = report.ms_solve;
-  record.ms_line_search = report.ms_line_search;
   session.step_done(record, tool_springs);
+  if (frozen_now)
+    session.print(
+        fmt::format("the body is frozen at {:.6g} s: {} steps could not be saved from {}; undo, lower the "
+                    "loads, step less far or choose another integrator or model, then `guard thaw`",
+                    motion->time, fem::k_guard_failures, cause_of(cause)));
+}
+
+void report_guard(const Session& session, std::size_t first_step) {
+  std::array<std::size_t, fem::k_guard_findings.size()> findings{};
+  std::array<std::size_t, fem::k_guard_remedies.size()> remedies{};
+  std::size_t steps = 0;
+  for (std::size_t i = first_step; i < session.steps().size(); ++i) {
+    const StepRecord& record = session.steps()[i];
+    if (record.remedy == fem::GuardRemedy::none) continue;
+    ++steps;
+    for (std::size_t k = 0; k < findings.size(); ++k) findings[k] += record.finding == fem::k_guard_findings[k];
+    for (std::size_t k = 0; k < remedies.size(); ++k) remedies[k] += record.remedy == fem::k_guard_remedies[k];
+  }
+  if (steps == 0) return;
+  std::string causes, helped;
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    if (findings[k])
+      causes +=
+          fmt::format("{}{} from {}", causes.empty() ? "" : ", ", findings[k], cause_of(fem::k_guard_findings[k]));
+  static constexpr const char* k_help[] = {"saved by substeps", "by more Newton iterations", "by implicit Euler",
+                                           "taken back", "passed frozen"};
+  for (std::size_t k = 0; k < remedies.size(); ++k)
+    if (remedies[k]) helped += fmt::format("{}{} {}", helped.empty() ? "" : ", ", remedies[k], k_help[k]);
+  session.print(fmt::format("guard: {} of {} steps{}{}: {}", steps, session.steps().size() - first_step,
+                            causes.empty() ? "" : ", ", causes, helped));
 }
 
 }  // namespace argil::sculpt

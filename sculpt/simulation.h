@@ -8,9 +8,14 @@
 
 namespace argil::sculpt {
 
-/// Advances the document (without making an undo record) by `time_step` [s].
-/// @throws Error (not_converged) if the state would not be finite; the document is as before this step.
+/// Advances the document (without making an undo record) by `time_step` [s], in the substeps that the state asks
+/// for, under its guard.
+/// @throws Error (not_converged) if the state would not be finite and the guard is off; the document is as before
+/// this step.
 void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& tool_springs, double time_step);
+
+/// Says what the guard did in the steps from `first_step` on (a place in Session::steps()), if it did anything.
+void report_guard(const Session& session, std::size_t first_step);
 
 /// @throws Error (bad_input) where steps cannot be taken: no solid, level 0 with cells that are not hexahedra, ….
 void require_simulation(Session& session);

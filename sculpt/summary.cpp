@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "fem/solvers/solver_choice.h"
 #include "sculpt/measures.h"
 #include "subdiv/error.h"
 
@@ -71,6 +72,18 @@ std::string summary_json(const Session& session, const std::string& name, int th
     sum.linear_iterations += step.linear_iterations;
     sum.newton_iterations += step.newton_iterations;
   }
+  ordered_json guard;
+  guard["on"] = document.state().guard_on;
+  guard["frozen"] = document.state().guard.frozen;
+  const auto count = [&](const auto& holds) {
+    return std::count_if(session.steps().begin(), session.steps().end(), holds);
+  };
+  for (const fem::GuardFinding finding : fem::k_guard_findings)
+    guard["found"][std::string(fem::word(finding))] =
+        count([&](const StepRecord& step) { return step.finding == finding; });
+  for (const fem::GuardRemedy remedy : fem::k_guard_remedies)
+    guard["steps"][std::string(fem::word(remedy))] =
+        count([&](const StepRecord& step) { return step.remedy == remedy; });
   const double n = std::max<double>(1, static_cast<double>(ms.size()));
   json["ms_per_step"] = {
       {"median", quantile(ms, 0.5)},
@@ -83,6 +96,11 @@ std::string summary_json(const Session& session, const std::string& name, int th
       {"other", (sum.ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
   json["solver_iterations"] = sum.linear_iterations;
   json["newton_iterations"] = sum.newton_iterations;
+  json["guard"] = guard;
+  json["linear_solver"]["rule"] = fem::solver_rule();
+  for (const fem::PreconditionerKind kind : fem::k_preconditioner_kinds)
+    json["linear_solver"]["steps"][std::string(fem::word(kind))] =
+        count([&](const StepRecord& step) { return step.solver == kind; });
   json["threads"] = threads;
   ordered_json measures = ordered_json::array();
   for (const MeasureRecord& record : session.measures())

@@ -4,108 +4,38 @@
 
 #include <cassert>
 #include <cmath>
-#include <optional>
 
-#include "fem/dynamics/newton.h"
-#include "fem/dynamics/rigid_modes.h"
-#include "fem/solvers/stencil_product.h"
+#include "fem/dynamics/integrator_body.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
 
-namespace {
-
-constexpr double k_static_tolerance = 1e-8;
-constexpr double k_static_linear_tolerance = 1e-6;
-constexpr int k_static_cap = 60;
-constexpr double k_smallest_load_step = 1.0 / 256;
-
-/// What a preconditioner is made for; the springs' targets do not matter.
-struct PreconditionerKey {
-  double coefficient = -1;  // c; 0 in statics
-  std::vector<AnchorSpring> springs;
-
-  bool fits(double c, const std::vector<AnchorSpring>& others) const {
-    if (coefficient != c || springs.size() != others.size()) return false;
-    for (std::size_t i = 0; i < springs.size(); ++i)
-      if (springs[i].stiffness != others[i].stiffness || springs[i].weights != others[i].weights ||
-          springs[i].control_points != others[i].control_points)
-        return false;
-    return true;
-  }
-};
-
-}  // namespace
-
-struct Integrator::Impl {
-  System system;
-  std::optional<RestOperator> rest;
-  std::vector<std::uint8_t> free;  // not fixed, and some element depends on it
-  Eigen::SparseMatrix<double> inertia;
-  PreconditionerKey key;
-  std::unique_ptr<Preconditioner> preconditioner;
-
-  Eigen::Index size() const { return static_cast<Eigen::Index>(system.rows->column_count); }
-
-  void forget() {
-    key.coefficient = -1;
-    preconditioner.reset();
-  }
-
-  /// Makes what steps with coefficient c need, unless it is there.
-  void prepare(double c, const std::vector<AnchorSpring>& springs) {
-    if (!rest) {
-      rest =
-          rest_operator(system, preconditioner_kind(3 * system.rows->column_count) == PreconditionerKind::factor);
-      forget();
-    }
-    if (preconditioner && key.fits(c, springs)) return;
-    free.assign(system.fixed.size(), 0);
-    for (std::size_t i = 0; i < free.size(); ++i) free[i] = !system.fixed[i] && rest->touched[i] ? 1 : 0;
-    if (c > 0) {
-      inertia = *system.mass / (c * c);
-      if (system.damping) inertia += *system.damping / c;
-    } else {
-      inertia.resize(0, 0);
-    }
-    preconditioner =
-        make_preconditioner(preconditioner_kind(3 * system.rows->column_count), *rest, inertia, springs, free);
-    key = {c, springs};
-  }
-
-  Potential potential(const std::vector<AnchorSpring>& springs) const {
-    Potential result;
-    result.model = system.model;
-    result.rest = &*rest;
-    result.inertia = &inertia;
-    result.springs = &springs;
-    result.free = &free;
-    return result;
-  }
-
-  Eigen::Matrix3Xd external_forces(const Loads& loads) const {
-    return loads.forces.cols() > 0 ? loads.forces : Eigen::Matrix3Xd(Eigen::Matrix3Xd::Zero(3, size()));
-  }
-};
-
-Integrator::Integrator(System system) : impl_(std::make_unique<Impl>()) {
-  assert(system.rows && system.rows_transposed && system.model && system.mass && system.rest_nodes);
-  assert(system.fixed.size() == system.rows->column_count);
-  impl_->system = std::move(system);
+Integrator::Integrator(System system) : impl_(std::make_unique<Impl>(std::move(system))) {
+  const System& of = impl_->system;
+  assert(of.rows && of.rows_transposed && of.model && of.mass && of.rest_nodes);
+  assert(of.fixed.size() == of.rows->column_count);
+  static_cast<void>(of);
 }
 Integrator::~Integrator() = default;
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator& Integrator::operator=(Integrator&&) noexcept = default;
 
 void Integrator::materials_changed() {
-  impl_->rest.reset();
-  impl_->forget();
+  impl_->forget_materials();
 }
 
 void Integrator::set_fixed(std::vector<std::uint8_t> fixed) {
   assert(fixed.size() == impl_->system.fixed.size());
   impl_->system.fixed = std::move(fixed);
-  impl_->forget();
+  impl_->forget_pins();
+}
+
+const System& Integrator::system() const {
+  return impl_->system;
+}
+
+double Integrator::elastic_energy(const Eigen::Matrix3Xd& positions) {
+  return impl_->elastic_energy(positions);
 }
 
 StepReport Integrator::step(const Loads& loads, BodyState& state, double time_step, const StepOptions& options,
@@ -113,109 +43,68 @@ StepReport Integrator::step(const Loads& loads, BodyState& state, double time_st
   if (!(time_step > 0) || !std::isfinite(time_step))
     throw Error(ErrorCode::bad_input,
                 fmt::format("A time step must be positive and finite; {} s was given.", time_step));
-  Impl& body = *impl_;
-  const bool bdf2 = options.method == Method::bdf2 && state.previous_step == time_step;
-  const double c = bdf2 ? 2 * time_step / 3 : time_step;
+  switch (options.method) {
+    case Method::bdf2:
+    case Method::implicit_euler:
+    case Method::semi_implicit:
+      return impl_->incremental_step(loads, state, time_step, options, clock);
+    case Method::generalised_alpha:
+      return impl_->generalised_alpha_step(loads, state, time_step, options, clock);
+    case Method::central_difference:
+    case Method::forward_euler:
+    case Method::symplectic_euler:
+    case Method::velocity_verlet:
+    case Method::midpoint:
+      return impl_->explicit_step(loads, state, time_step, options, clock);
+  }
+  assert(false && "a method without steps");
+  return {};
+}
+
+/// BDF2, implicit Euler, and the single linear solve of semi-implicit Euler, which starts from where the body is.
+StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& state, double h,
+                                              const StepOptions& options, Clock clock) {
+  const bool bdf2 = options.method == Method::bdf2 && state.previous_step == h;
+  const bool one_solve = options.method == Method::semi_implicit;
+  const double c = bdf2 ? 2 * h / 3 : h;
   const double start = clock ? clock() : 0;
-  body.prepare(c, loads.springs);
+  prepare({c * c, c}, loads.springs);
   const double prepared = clock ? 1e3 * (clock() - start) : 0;
 
   Eigen::Matrix3Xd velocity = state.velocities;  // v̄
-  Potential potential = body.potential(loads.springs);
-  potential.anchor = state.positions;
+  Potential goal = potential(loads.springs);
+  goal.anchor = state.positions;
   if (bdf2) {
-    potential.anchor = (4 * state.positions - state.previous_positions) / 3;
+    goal.anchor = (4 * state.positions - state.previous_positions) / 3;
     velocity = (4 * state.velocities - state.previous_velocities) / 3;
   }
-  Eigen::Matrix3Xd p = state.positions + time_step * state.velocities;
-  for (std::size_t i = 0; i < body.free.size(); ++i) {
-    if (body.free[i]) continue;
+  Eigen::Matrix3Xd p = state.positions;
+  if (!one_solve) p += h * state.velocities;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i]) continue;
     const auto column = static_cast<Eigen::Index>(i);
-    p.col(column) = potential.anchor.col(column) = state.positions.col(column);
+    p.col(column) = goal.anchor.col(column) = state.positions.col(column);
     velocity.col(column).setZero();
   }
-  potential.constant_force = body.external_forces(loads) + velocity * (*body.system.mass / c);
-  Eigen::Matrix3Xd x, v, node_forces, damping_forces;
-  multiply(*body.system.rows, state.positions, x);
-  multiply(*body.system.rows, state.velocities, v);
-  body.system.model->velocity_forces(x, v, node_forces);
-  multiply(*body.system.rows_transposed, node_forces, damping_forces);
-  potential.constant_force += damping_forces;
+  goal.constant_force = load_forces(loads) + velocity * (*system.mass / c);
+  goal.constant_force += velocity_forces(state);
+  // The velocity (p − p̄)/c of BDF2 belongs to the end of the step, that of Euler's method to its middle: seen from
+  // there a rotation has no rate of strain, to the third power of its angle.
+  const double share = one_solve ? 0 : (bdf2 ? 1 : 0.5);
+  set_viscosity(goal, state.positions + share * h * state.velocities, c);
 
   StepReport report;
   report.ms_tangent += prepared;
-  NewtonOptions newton;
-  newton.cap = options.newton_cap;
-  newton.tolerance = options.newton_tolerance;
-  newton.linear_tolerance = options.linear_tolerance;
-  newton.linear_cap = options.linear_cap;
-  minimise(potential, *body.preconditioner, newton, p, report, clock);
-
-  BodyState next;
-  next.velocities = (p - potential.anchor) / c;
-  next.previous_positions = std::move(state.positions);
-  next.previous_velocities = std::move(state.velocities);
-  next.positions = std::move(p);
-  next.previous_step = time_step;
-  next.time = state.time + time_step;
-  state = std::move(next);
-  return report;
-}
-
-StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const StepOptions& options, Clock clock) {
-  Impl& body = *impl_;
-  body.prepare(0, loads.springs);
-  const Eigen::Matrix3Xd forces = body.external_forces(loads);
-  check_rigid_motions(body.system, loads, body.rest->touched, state.positions, forces);
-
-  StepReport report;
-  NewtonOptions newton;
-  newton.cap = k_static_cap;
-  newton.tolerance = std::min(options.newton_tolerance, k_static_tolerance);
-  newton.against_loads = true;
-  newton.full_tangent = true;
-  newton.linear_tolerance = std::min(options.linear_tolerance, k_static_linear_tolerance);
-  newton.linear_cap = options.linear_cap;
-
-  /// Equilibrium under a share of the load; the springs' targets move from where they hold the body now.
-  const auto solve = [&](double share, Eigen::Matrix3Xd& p) {
-    std::vector<AnchorSpring> springs = loads.springs;
-    for (AnchorSpring& spring : springs) {
-      const Eigen::Vector3d from = held_point(spring, state.positions);
-      spring.target = share < 1 ? Eigen::Vector3d(from + share * (spring.target - from)) : spring.target;
-    }
-    Potential potential = body.potential(springs);
-    potential.constant_force = share * forces;
-    minimise(potential, *body.preconditioner, newton, p, report, clock);
-    return report.converged;
-  };
-  Eigen::Matrix3Xd p = state.positions;
-  if (!solve(1.0, p)) {
-    p = state.positions;
-    double share = 0, increment = 0.25;
-    while (share < 1) {
-      Eigen::Matrix3Xd trial = p;
-      const double next = std::min(1.0, share + increment);
-      if (solve(next, trial)) {
-        p = std::move(trial);
-        share = next;
-        continue;
-      }
-      increment /= 2;
-      if (increment < k_smallest_load_step)
-        throw Error(
-            ErrorCode::not_converged,
-            fmt::format("No static equilibrium was found beyond {:.3g} of the load: the residual is {:.2g} of "
-                        "the loads where {:.0e} was asked for. Lower the load, or step in time with damping.",
-                        share, report.residual, newton.tolerance));
-    }
+  NewtonOptions newton = newton_options(options);
+  if (one_solve) {
+    newton.cap = 1;
+    newton.tolerance = 0;
+    newton.line_search = false;
   }
-  const Eigen::Index n = p.cols();
-  const double time = state.time;
-  state = BodyState{};
-  state.positions = std::move(p);
-  state.velocities.setZero(3, n);
-  state.time = time;
+  minimise(goal, *preconditioner, newton, p, report, clock);
+  if (one_solve) report.converged = true;
+  Eigen::Matrix3Xd next = (p - goal.anchor) / c;
+  advance(state, std::move(p), std::move(next), h);
   return report;
 }
 

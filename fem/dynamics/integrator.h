@@ -1,6 +1,7 @@
 #pragma once
-// Time steps in the control points (METHODS §5): BDF2 (default) and implicit Euler, each a minimisation by Newton's
-// method with line search, its linear systems by preconditioned conjugate gradients.
+// Time steps in the control points (METHODS §5) by the methods of method.h. Implicit ones minimise an incremental
+// potential by Newton's method with line search, its linear systems by preconditioned conjugate gradients; explicit
+// ones solve with the factored consistent mass.
 
 #include <cstdint>
 #include <memory>
@@ -17,6 +18,8 @@ struct StepOptions {
   Method method = Method::bdf2;
   int newton_cap = 3;              // interactive
   double newton_tolerance = 1e-4;  // relative to the first residual
+  bool line_search = true;         // false takes whole Newton steps, to show where they fail
+  double spectral_radius = 0.8;    // of generalised-α at infinite frequency, in [0, 1]: what is left after a step
   double linear_tolerance = 1e-4;  // PCG, relative residual
   int linear_cap = 2000;
 };
@@ -48,9 +51,11 @@ class Integrator {
   /// Takes other pins; the rest operator is kept.
   void set_fixed(std::vector<std::uint8_t> fixed);
 
-  /// One step of length `time_step` [s]: BDF2 with history of the same step length, else implicit Euler. A fixed
-  /// control point keeps its position and has velocity 0. Forces that depend on velocity are taken at the start of
-  /// the step. Stops after `newton_cap` iterations without complaint; the report tells.
+  /// One step of length `time_step` [s]. BDF2 without history of the same step length is implicit Euler, central
+  /// difference then starts from position, velocity and acceleration. A fixed control point keeps its position and
+  /// has velocity 0. The model's own forces that depend on velocity are taken at the start of the step; damping by
+  /// density is implicit in implicit methods and in central difference, damping by stiffness in implicit ones.
+  /// Stops after `newton_cap` iterations without complaint; the report tells.
   /// @throws Error (not_converged) if a value is not finite, (bad_input) for a time step that is not positive;
   /// `state` is then as it was.
   StepReport step(const Loads& loads, BodyState& state, double time_step, const StepOptions& options,
@@ -61,6 +66,10 @@ class Integrator {
   /// @throws Error (bad_input) if the load pushes along a rigid motion that nothing holds, (not_converged) with
   /// what is left; `state` is then as it was.
   StepReport solve_static(const Loads& loads, BodyState& state, const StepOptions& options, Clock clock = nullptr);
+
+  [[nodiscard]] const System& system() const;
+  /// Of the model at these control points [J]; the last one is remembered, as are the forces of explicit methods.
+  [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& positions);
 
  private:
   struct Impl;

@@ -12,6 +12,26 @@ std::span<const MethodKind> method_table() {
   static constexpr MethodKind table[] = {
       {Method::bdf2, "bdf2", "the default, second order, damps what is too fast for the step", 2, true},
       {Method::implicit_euler, "implicit_euler", "first order, damps strongly", 1, true},
+      {Method::semi_implicit, "semi_implicit",
+       "implicit Euler with one linear solve from where the body is, first order, brakes a spin and fails where "
+       "the "
+       "step turns or strains much",
+       1, true},
+      {Method::generalised_alpha, "generalised_alpha",
+       "second order, damps what is too fast for the step by a chosen share and little else, may ring at great "
+       "strain",
+       2, true},
+      {Method::central_difference, "central_difference",
+       "as published, stiffness explicit, second order, diverges above a step of 2 over the highest frequency", 2,
+       false},
+      {Method::forward_euler, "forward_euler", "explicit, first order, gains energy at any step", 1, false},
+      {Method::symplectic_euler, "symplectic_euler",
+       "explicit, first order, keeps energy in the mean, diverges above a step of 2 over the highest frequency", 1,
+       false},
+      {Method::velocity_verlet, "velocity_verlet",
+       "explicit, second order, keeps energy in the mean, diverges above a step of 2 over the highest frequency", 2,
+       false},
+      {Method::midpoint, "midpoint", "explicit, second order, gains energy at any step", 2, false},
   };
   return table;
 }

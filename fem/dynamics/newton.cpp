@@ -54,11 +54,14 @@ void add_symmetric_product(const Eigen::SparseMatrix<double>& matrix, const Eige
   });
 }
 
-[[noreturn]] void fail_not_finite() {
-  throw Error(
-      ErrorCode::not_converged,
-      "The step met a value that is not finite. Take smaller steps, lower the loads, or look for cells that "
-      "are inside out; the body is as it was before the step.");
+/// result += sign · Aᵀ V A · values / c.
+void add_viscous_product(const Potential& potential, const Eigen::Matrix3Xd& values, double sign,
+                         Eigen::Matrix3Xd& result) {
+  Eigen::Matrix3Xd nodes, node_product, product;
+  multiply(potential.rest->rows, values, nodes);
+  potential.viscous->product(nodes, node_product);
+  multiply(potential.rest->rows_transposed, node_product, product);
+  result += (sign * potential.viscous_coefficient) * product;
 }
 
 /// Φ(p + length · direction) − Φ(p). The quadratic part is taken exactly, so that it does not cancel.
@@ -73,6 +76,13 @@ struct LineFunction {
 
 }  // namespace
 
+void fail_not_finite() {
+  throw Error(
+      ErrorCode::not_converged,
+      "The step met a value that is not finite. Take smaller steps, lower the loads, or look for cells that "
+      "are inside out; the body is as it was before the step.");
+}
+
 Forces Potential::forces(const Eigen::Matrix3Xd& p) const {
   Forces result;
   Eigen::Matrix3Xd x, node_forces;
@@ -81,6 +91,7 @@ Forces Potential::forces(const Eigen::Matrix3Xd& p) const {
   multiply(rest->rows_transposed, node_forces, result.elastic);
   result.total = result.elastic + constant_force;
   if (inertia->size() > 0) add_symmetric_product(*inertia, p - anchor, -1.0, result.total);
+  if (viscous) add_viscous_product(*this, p - anchor, -1.0, result.total);
   add_spring_forces(*springs, p, result.total);
   double sum = 0;
   for (std::size_t i = 0; i < free->size(); ++i)
@@ -99,6 +110,7 @@ double Potential::elastic_energy(const Eigen::Matrix3Xd& p) const {
 void Potential::constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const {
   result.setZero(3, direction.cols());
   if (inertia->size() > 0) add_symmetric_product(*inertia, direction, 1.0, result);
+  if (viscous) add_viscous_product(*this, direction, 1.0, result);
   for (const AnchorSpring& spring : *springs) {
     const Eigen::Vector3d force = spring.stiffness * held_point(spring, direction);
     for (std::size_t e = 0; e < spring.control_points.size(); ++e)
@@ -199,7 +211,7 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     const double descent = -dot(forces.total, direction);  // Φ's slope along the direction
     if (!std::isfinite(descent)) fail_not_finite();
     LineFunction line;
-    if (has_energy) {
+    if (has_energy && options.line_search) {
       if (!energy) energy = potential.elastic_energy(p);
       line.start_energy = *energy;
       line.slope = descent + dot(forces.elastic, direction);
@@ -212,7 +224,10 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     double length = 1;
     for (int halving = 0; halving <= k_halvings && !accepted; ++halving, length *= 0.5) {
       trial = p + length * direction;
-      if (has_energy) {
+      if (!options.line_search) {
+        accepted = true;
+        trial_forces = potential.forces(trial);
+      } else if (has_energy) {
         energy = potential.elastic_energy(trial);
         const double slack = 64 * k_epsilon * (std::abs(*energy) + std::abs(line.start_energy));
         accepted = line.change(length, *energy) <= k_armijo * length * descent + slack;
@@ -223,7 +238,7 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     }
     if (!accepted) return;
     p = trial;
-    forces = has_energy ? potential.forces(p) : std::move(trial_forces);
+    forces = has_energy && options.line_search ? potential.forces(p) : std::move(trial_forces);
     residual = forces.total.norm();
   }
 }

@@ -1,11 +1,13 @@
 #pragma once
 // Newton's method with line search on the incremental potential of a time step (METHODS §5), or on the potential
 // energy in statics:
-//   Φ(p) = ½ (p − p̄)ᵀ C (p − p̄) − gᵀ p + Ψ(A p) + springs,   C = M̃/c² + D̃/c,   g = M̃ v̄/c + loads.
+//   Φ(p) = ½ (p − p̄)ᵀ C (p − p̄) − gᵀ p + Ψ(A p) + springs,   C = M̃/c² + D̃/c + Aᵀ V A/c,   g = M̃ v̄/c + loads,
+// V the viscosity at a state that is known before the step (viscous_damping.h).
 
 #include <Eigen/SparseCore>
 
 #include "fem/dynamics/integrator.h"
+#include "fem/dynamics/viscous_damping.h"
 #include "fem/solvers/rest_operator.h"
 
 namespace argil::fem {
@@ -24,10 +26,12 @@ struct Potential {
   Eigen::Matrix3Xd constant_force;             // g
   const std::vector<AnchorSpring>* springs = nullptr;
   const std::vector<std::uint8_t>* free = nullptr;
+  const ViscousDamping* viscous = nullptr;  // null: none
+  double viscous_coefficient = 0;           // 1/c
 
   [[nodiscard]] Forces forces(const Eigen::Matrix3Xd& p) const;
   [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& p) const;
-  /// (C + springs) · direction: the part of the Hessian that does not change.
+  /// (C + springs) · direction: the part of the Hessian that does not change, in all control points.
   void constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const;
   /// Norm of the rounding error of the force: machine precision times the terms that cancel in it.
   [[nodiscard]] double rounding(const Eigen::Matrix3Xd& p) const;
@@ -36,6 +40,7 @@ struct Potential {
 struct NewtonOptions {
   int cap = 3;
   double tolerance = 1e-4;     // of the first residual, or of `reference` if that is given
+  bool line_search = true;     // false takes whole steps, to show where they fail
   bool against_loads = false;  // statics: relative to the loads and reactions
   bool full_tangent = false;   // try the tangent as it is, and project it only where it is indefinite
   double linear_tolerance = 1e-4;
@@ -46,5 +51,8 @@ struct NewtonOptions {
 /// @throws Error (not_converged) if a value is not finite.
 void minimise(const Potential& potential, const Preconditioner& preconditioner, const NewtonOptions& options,
               Eigen::Matrix3Xd& p, StepReport& report, Clock clock);
+
+/// @throws Error (not_converged) that says what to do.
+[[noreturn]] void fail_not_finite();
 
 }  // namespace argil::fem

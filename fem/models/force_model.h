@@ -24,6 +24,8 @@ struct Promises {
   bool symmetric_tangent = true;
   bool passes_patch_test = true;       // an affine motion leaves no force at interior nodes
   bool rest_tangent_is_linear = true;  // at rest, that of linear elasticity in the same formulation
+  /// A cell that has turned inside out does not find back by itself: the guard takes such a step back.
+  bool inversion_is_error = false;
 };
 
 /// The tangent at one state. stiffness_product gives ∂²Ψ/∂x² dx (= −∂f/∂x dx), 3 x nodes.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "fem/solvers/rest_operator.h"
+#include "fem/solvers/supernodal.h"
 
 namespace argil::fem {
 
@@ -105,8 +106,18 @@ class FactorPreconditioner : public Preconditioner {
 
 }  // namespace
 
-PreconditionerKind preconditioner_kind(std::size_t unknowns) {
-  return unknowns <= k_largest_factor ? PreconditionerKind::factor : PreconditionerKind::jacobi;
+std::string_view word(PreconditionerKind kind) {
+  switch (kind) {
+    case PreconditionerKind::factor:
+      return "factor";
+    case PreconditionerKind::jacobi:
+      return "jacobi";
+    case PreconditionerKind::supernodal:
+      return "supernodal";
+    case PreconditionerKind::none:
+      return "none";
+  }
+  return "";
 }
 
 std::unique_ptr<Preconditioner> make_preconditioner(PreconditionerKind kind, const RestOperator& rest,
@@ -117,6 +128,8 @@ std::unique_ptr<Preconditioner> make_preconditioner(PreconditionerKind kind, con
     auto factor = std::make_unique<FactorPreconditioner>(rest, inertia, springs, free);
     if (factor->succeeded()) return factor;
   }
+  if (kind == PreconditionerKind::supernodal)
+    if (auto factor = make_supernodal(rest, inertia, free)) return factor;
   return std::make_unique<JacobiPreconditioner>(rest, inertia, springs, free);
 }
 

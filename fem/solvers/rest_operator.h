@@ -3,6 +3,7 @@
 // depends on rest positions and materials only.
 
 #include <Eigen/SparseCore>
+#include <functional>
 #include <vector>
 
 #include "fem/system.h"
@@ -19,6 +20,12 @@ struct RestOperator {
 /// Cost O(elements · (nodes · columns + columns²)), columns = control points that an element depends on; the full
 /// matrix only if `with_stiffness`.
 [[nodiscard]] RestOperator rest_operator(const System& system, bool with_stiffness);
+/// The same of any element matrices, in nodes that `rows` gives.
+using ElementSource = std::function<void(const Tangent::Visit& visit)>;
+[[nodiscard]] RestOperator reduce_elements(const subdiv::Stencils& rows, const ElementSource& source,
+                                           bool with_stiffness);
+/// to += factor · other, in diagonal and stiffness.
+void add_scaled(RestOperator& to, const RestOperator& other, double factor);
 
 /// Gathers what one element names into its reduced form: the union of columns of its rows (ascending) and their
 /// weights, nodes x columns. Used for stiffness and mass alike.

@@ -37,6 +37,7 @@ std::shared_ptr<const fem::BodyState> without_history(const fem::BodyState& moti
   auto result = std::make_shared<fem::BodyState>(motion);
   result->previous_positions.resize(3, 0);
   result->previous_velocities.resize(3, 0);
+  result->accelerations.resize(3, 0);
   result->previous_step = 0;
   return result;
 }

@@ -60,6 +60,7 @@ void pin(Session& session, const Arguments& arguments) {
           motion->previous_positions.col(v) = motion->positions.col(v);
           motion->previous_velocities.col(v).setZero();
         }
+        if (motion->accelerations.cols() > 0) motion->accelerations.col(v).setZero();
       }
     next.motion = motion;
     session.print(
@@ -120,6 +121,25 @@ void set_integrator(Session& session, const Arguments& arguments) {
   State next = session.document().state();
   next.method = fem::method_by_name(arguments.word("method")).method;
   next.newton_cap = static_cast<int>(arguments.integer("newton", next.newton_cap));
+  next.newton_tolerance = arguments.number("tolerance", next.newton_tolerance);
+  next.line_search = arguments.word("line_search", next.line_search ? "on" : "off") == "on";
+  next.spectral_radius = arguments.number("spectral_radius", next.spectral_radius);
+  next.substeps = static_cast<int>(arguments.integer("substeps", next.substeps));
+  session.change(std::move(next));
+}
+
+void set_guard(Session& session, const Arguments& arguments) {
+  require_solid(session);
+  State next = session.document().state();
+  const std::string& what = arguments.word("what");
+  if (what == "thaw") {
+    session.print(next.guard.frozen ? "the body moves again from where it stands"
+                                    : "the body was not frozen; its failures are forgotten");
+    next.guard = {};
+  } else {
+    next.guard_on = what == "on";
+    if (!next.guard_on) next.guard = {};
+  }
   session.change(std::move(next));
 }
 
@@ -133,7 +153,9 @@ void step(Session& session, const Arguments& arguments) {
     first.tick_carry = 0;  // what was left over was part of a step of another length
   first.time_step = time_step;
   session.document().assign(std::move(first));
+  const std::size_t first_step = session.steps().size();
   for (long i = 0; i < count && !session.stop_requested(); ++i) simulation_step(session, {}, time_step);
+  report_guard(session, first_step);
   session.change(session.document().state());
 }
 
@@ -150,6 +172,7 @@ void solve(Session& session, const Arguments&) {
   session.print(fmt::format("equilibrium in {} Newton and {} linear iterations", report.newton_iterations,
                             report.linear_iterations));
   next.motion = motion;
+  next.guard = {};
   session.change(std::move(next));
 }
 
@@ -170,6 +193,7 @@ void commit(Session& session, const Arguments&) {
   motion->velocities = Eigen::Matrix3Xd::Zero(3, motion->positions.cols());
   motion->time = next.motion->time;
   next.motion = motion;
+  next.guard = {};
   document.assign(next);
   check_discretization(session);
   session.print(fmt::format("the present shape is the rest shape now; mass {:.6g} → {:.6g} kg", mass_before,
@@ -244,10 +268,40 @@ std::vector<Command> simulation_commands() {
                        .type = ArgumentType::integer,
                        .help = "most Newton iterations a step",
                        .low = 1,
-                       .high = 100}},
+                       .high = 100},
+                      {.name = "tolerance",
+                       .help = "of Newton's method, as a share of the first residual",
+                       .low = 1e-14,
+                       .high = 1},
+                      {.name = "line_search",
+                       .type = ArgumentType::word,
+                       .help = "of Newton's method; off takes whole steps, to show where they fail",
+                       .choices = {"on", "off"}},
+                      {.name = "spectral_radius",
+                       .help = "of generalised_alpha: what is left after a step of what is too fast for it",
+                       .low = 0,
+                       .high = 1},
+                      {.name = "substeps",
+                       .type = ArgumentType::integer,
+                       .help = "parts that every step is taken in",
+                       .low = 1,
+                       .high = 1000}},
        .example = "integrator bdf2 newton 3",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = set_integrator},
+      {.name = "guard",
+       .summary = "Watches every step for values that are not finite, energy from nowhere and cells turned inside "
+                  "out; takes such a step back and tries substeps, more Newton iterations, then implicit Euler. A "
+                  "body that nothing helps three times is frozen where it last stood well.",
+       .parameters = {{.name = "what",
+                       .type = ArgumentType::word,
+                       .help = "on (as at the start), off, or thaw to let a frozen body move again",
+                       .positional = true,
+                       .required = true,
+                       .choices = {"on", "off", "thaw"}}},
+       .example = "guard thaw",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
+       .run = set_guard},
       {.name = "step",
        .summary = "Advances time without a device.",
        .parameters = {{.name = "count",

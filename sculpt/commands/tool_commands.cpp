@@ -60,6 +60,7 @@ void stroke(Session& session, const Arguments& arguments) {
   const double step_ticks = document.state().time_step / k_tick_seconds;
   const Tick life = static_cast<Tick>(std::ceil(3 * step_ticks));
   channel.publish(felt(grip, from, document.positions(), life));
+  const std::size_t first_step = session.steps().size();
   double pending = document.state().tick_carry, largest = 0;
   Eigen::Vector3d device_now = from;
   for (Tick tick = 1; tick <= ticks + hold && !session.stop_requested(); ++tick) {
@@ -80,6 +81,7 @@ void stroke(Session& session, const Arguments& arguments) {
   }
   State next = document.state();
   next.tick_carry = std::max(0.0, pending);
+  report_guard(session, first_step);
   session.print(fmt::format("pulled with up to {:.3g} N", largest));
   const ToolForce force{grip.held(document.positions()), grip.force(device_now, document.positions())};
   session.change(std::move(next));

@@ -39,6 +39,7 @@ class SimulatedSolid {
     system.rest_nodes = &discretization.rest_nodes;
     system.mass = &discretization.mass;
     system.damping = &discretization.damping;
+    system.blocks = discretization.blocks;
     system.fixed.assign(system.rows->column_count, 0);
     state.positions = rest;
     state.velocities.setZero(3, rest.cols());

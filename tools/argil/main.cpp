@@ -83,7 +83,7 @@ int run(int argc, char** argv) {
       "summary.json: version, session, state_hash, steps, space, cells {regular, regular_published, "
       "extraordinary, irregular}, elements {cubic, linear, pyramid}, unknowns, ms_per_step {median, p99, "
       "forces, tangent, solve, line_search, other}, solver_iterations, newton_iterations, energy, volume, mass, "
-      "threads, measures, expectations.");
+      "guard {on, frozen, found, steps}, linear_solver {rule, steps}, threads, measures, expectations.");
   replay_app->callback([&] { status = replay(replaying); });
 
   ReplayArguments restoring;

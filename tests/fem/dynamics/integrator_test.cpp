@@ -10,6 +10,7 @@
 
 #include "fem/loads.h"
 #include "fem/measure/energy.h"
+#include "fem/solvers/solver_choice.h"
 #include "subdiv/error.h"
 #include "tests/fem/simulated_solid.h"
 #include "tests/fem/spring_model.h"

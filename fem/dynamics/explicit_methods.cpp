@@ -1,0 +1,102 @@
+// Methods that take the stiffness where the body is. Each solves with the factored consistent mass, once per
+// evaluation of the forces; above a step of about 2 over the highest frequency of (K̃, M̃) all of them diverge.
+
+#include "fem/dynamics/integrator_body.h"
+
+namespace argil::fem {
+
+namespace {
+
+struct Motion {
+  Eigen::Matrix3Xd p, v;
+};
+
+Motion forward_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
+  return {now.p + h * now.v, now.v + h * a};
+}
+
+Motion symplectic_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
+  Motion next{now.p, now.v + h * a};
+  next.p += h * next.v;
+  return next;
+}
+
+/// The second evaluation sees the velocity at the end as the first extrapolates it, so that damping too is of
+/// second order.
+template <class Accelerations>
+Motion velocity_verlet(const Motion& now, const Eigen::Matrix3Xd& a, const Accelerations& accelerations, double h) {
+  Motion next{now.p + h * now.v + (0.5 * h * h) * a, now.v + h * a};
+  next.v = now.v + (0.5 * h) * (a + accelerations(next));
+  return next;
+}
+
+template <class Accelerations>
+Motion midpoint(const Motion& now, const Eigen::Matrix3Xd& a, const Accelerations& accelerations, double h) {
+  const Motion middle = forward_euler(now, a, 0.5 * h);
+  return {now.p + h * middle.v, now.v + h * accelerations(middle)};
+}
+
+}  // namespace
+
+StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state, double h,
+                                           const StepOptions& options, Clock clock) {
+  const double start = clock ? clock() : 0;
+  const MassFactor& mass = factored_mass(options.method == Method::central_difference ? 0.5 * h : 0);
+  StepReport report;
+  report.preconditioner = PreconditionerKind::none;
+  if (clock) report.ms_tangent = 1e3 * (clock() - start);
+
+  Motion now{state.positions, state.velocities}, next;
+  clear_held(free, now.v);
+  const auto accelerations = [&](const Motion& at) {
+    return mass.solve(with_mass_damping(forces(loads, at.p, at.v), at.v));
+  };
+  if (options.method == Method::central_difference) {
+    // papers/004 eq. 20 less (2M + hD) p on both sides, where it would cancel; the factor is that of M + hD/2.
+    const auto displacement = [&](const Eigen::Matrix3Xd& acting, const Eigen::Matrix3Xd& last) {
+      return mass.solve((h * h) * acting +
+                        with_mass_damping(last * *system.mass, Eigen::Matrix3Xd((0.5 * h) * last)));
+    };
+    const Eigen::Matrix3Xd acting = forces(loads, now.p, now.v);
+    Eigen::Matrix3Xd last;
+    if (state.previous_step == h) {
+      last = now.p - state.previous_positions;
+      clear_held(free, last);
+      next.p = now.p + displacement(acting, last);
+    } else {
+      // With p₋ = p₊ − 2hv, eq. 20 gives p₊ itself.
+      next.p = now.p + (0.5 * h * h) * factored_mass(0).solve(with_mass_damping(acting, now.v)) + h * now.v;
+    }
+    // Eq. 16 (its left side belongs to the middle of its three times) of the step that would follow.
+    const MassFactor& again = factored_mass(0.5 * h);
+    last = next.p - now.p;
+    next.v = last / h;
+    const Eigen::Matrix3Xd following = forces(loads, next.p, next.v);
+    next.v = (last + again.solve((h * h) * following +
+                                 with_mass_damping(last * *system.mass, Eigen::Matrix3Xd((0.5 * h) * last)))) /
+             (2 * h);
+  } else {
+    const Eigen::Matrix3Xd a = accelerations(now);
+    switch (options.method) {
+      case Method::forward_euler:
+        next = forward_euler(now, a, h);
+        break;
+      case Method::symplectic_euler:
+        next = symplectic_euler(now, a, h);
+        break;
+      case Method::velocity_verlet:
+        next = velocity_verlet(now, a, accelerations, h);
+        break;
+      default:
+        next = midpoint(now, a, accelerations, h);
+        break;
+    }
+  }
+  if (!next.p.allFinite() || !next.v.allFinite()) fail_not_finite();
+  advance(state, std::move(next.p), std::move(next.v), h);
+  report.converged = true;
+  if (clock) report.ms_forces = 1e3 * (clock() - start) - report.ms_tangent;
+  return report;
+}
+
+}  // namespace argil::fem

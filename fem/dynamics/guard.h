@@ -1,0 +1,72 @@
+#pragma once
+// The guard about a step (DESIGN, "Physics that is true"): no method hides an instability, and none loses the
+// model.
+//
+// After each step it asks whether every value is finite, whether energy has come from nowhere, and, for models to
+// which an inside-out cell is a state of rest (Promises::inversion_is_error), whether a cell has newly turned
+// inside out. Energy: kinetic + elastic at the end, less at the beginning, less the work of loads and springs
+// during the step, whose targets stand still in it, is what the step made of nothing, or lost. The gains are added
+// up over steps, losses pay them back (never below zero); the step is refused if the sum has come to more than half
+// of the energy that is there and still grows (for models without an energy: the half-product of force and
+// displacement). So the energy of a body never exceeds twice what was put in. An explicit method below its limit
+// swings by less than that unless its highest frequency carries the motion; implicit methods lose energy, and what
+// Newton's tolerance adds is some 1e-4 of it. Motion of less than 1e-4 of the body's size a step is let pass, since
+// nothing is lost by it.
+//
+// A refused step is taken back, and tried again by a ladder of remedies, each from the last good state: 2, 4 and 8
+// substeps; Newton's method with line search and up to 50 iterations (implicit methods); implicit Euler with both,
+// in 1 and in 8 substeps. If none helps the body stays where it was for this step, at rest; after three such
+// failures without an untroubled step between it is frozen until it is thawed.
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "fem/dynamics/integrator.h"
+
+namespace argil::fem {
+
+inline constexpr double k_guard_share = 0.5;        // of the energy present, that may have come from nowhere
+inline constexpr double k_guard_rounding = 1e-9;    // of the energy present: no growth
+inline constexpr double k_guard_negligible = 1e-4;  // of the body's size a step: motion that harms nothing
+inline constexpr int k_guard_failures = 3;          // failed ladders that freeze a body
+inline constexpr int k_guard_newton_cap = 50;
+
+enum class GuardFinding { none, not_finite, energy, inversion };
+enum class GuardRemedy { none, substeps, iterations, implicit_euler, restored, frozen };
+inline constexpr std::array k_guard_findings{GuardFinding::not_finite, GuardFinding::energy,
+                                             GuardFinding::inversion};
+inline constexpr std::array k_guard_remedies{GuardRemedy::substeps, GuardRemedy::iterations,
+                                             GuardRemedy::implicit_euler, GuardRemedy::restored,
+                                             GuardRemedy::frozen};
+[[nodiscard]] std::string_view word(GuardFinding finding);
+[[nodiscard]] std::string_view word(GuardRemedy remedy);
+
+/// What the guard carries from step to step: part of a body's state, as its history is.
+struct GuardState {
+  double surplus = 0;  // energy made of nothing and not yet paid back [J]
+  int failures = 0;    // failed ladders since the last untroubled step
+  bool frozen = false;
+  GuardFinding cause = GuardFinding::none;  // of the last failure
+  bool operator==(const GuardState&) const = default;
+};
+
+struct GuardedReport {
+  StepReport step;  // of the attempt that was kept, counts summed over its substeps
+  GuardFinding finding = GuardFinding::none;
+  GuardRemedy remedy = GuardRemedy::none;
+  int substeps = 1;
+};
+
+/// One step under guard; at most 17 attempts of substeps in all. A frozen body only gets older. Beside the step it
+/// costs one elastic energy, a mass product, and for models that ask for it the Jacobians.
+/// @throws Error for what is wrong with the arguments, never for what a method makes of them.
+GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard,
+                           double time_step, const StepOptions& options, Clock clock = nullptr);
+
+/// Kinetic energy [J].
+[[nodiscard]] double kinetic_energy(const System& system, const Eigen::Matrix3Xd& velocities);
+/// Quadrature points where det F ≤ 0; 0 if the system names no blocks. Cost O(points), in parallel.
+[[nodiscard]] std::size_t inverted_points(const System& system, const Eigen::Matrix3Xd& positions);
+
+}  // namespace argil::fem

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include "fem/dynamics/integrator_body.h"
+#include "fem/dynamics/rigid_modes.h"
+#include "subdiv/error.h"
+
+namespace argil::fem {
+
+namespace {
+
+constexpr double k_static_tolerance = 1e-8;
+constexpr double k_static_linear_tolerance = 1e-6;
+constexpr int k_static_cap = 60;
+constexpr double k_smallest_load_step = 1.0 / 256;
+
+}  // namespace
+
+StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const StepOptions& options, Clock clock) {
+  Impl& body = *impl_;
+  body.prepare({}, loads.springs);
+  const Eigen::Matrix3Xd forces = body.load_forces(loads);
+  check_rigid_motions(body.system, loads, body.rest->touched, state.positions, forces);
+
+  StepReport report;
+  NewtonOptions newton;
+  newton.cap = k_static_cap;
+  newton.tolerance = std::min(options.newton_tolerance, k_static_tolerance);
+  newton.against_loads = true;
+  newton.full_tangent = true;
+  newton.linear_tolerance = std::min(options.linear_tolerance, k_static_linear_tolerance);
+  newton.linear_cap = options.linear_cap;
+
+  /// Equilibrium under a share of the load; the springs' targets move from where they hold the body now.
+  const auto solve = [&](double share, Eigen::Matrix3Xd& p) {
+    std::vector<AnchorSpring> springs = loads.springs;
+    for (AnchorSpring& spring : springs) {
+      const Eigen::Vector3d from = held_point(spring, state.positions);
+      spring.target = share < 1 ? Eigen::Vector3d(from + share * (spring.target - from)) : spring.target;
+    }
+    Potential potential = body.potential(springs);
+    potential.constant_force = share * forces;
+    minimise(potential, *body.preconditioner, newton, p, report, clock);
+    return report.converged;
+  };
+  Eigen::Matrix3Xd p = state.positions;
+  if (!solve(1.0, p)) {
+    p = state.positions;
+    double share = 0, increment = 0.25;
+    while (share < 1) {
+      Eigen::Matrix3Xd trial = p;
+      const double next = std::min(1.0, share + increment);
+      if (solve(next, trial)) {
+        p = std::move(trial);
+        share = next;
+        continue;
+      }
+      increment /= 2;
+      if (increment < k_smallest_load_step)
+        throw Error(
+            ErrorCode::not_converged,
+            fmt::format("No static equilibrium was found beyond {:.3g} of the load: the residual is {:.2g} of "
+                        "the loads where {:.0e} was asked for. Lower the load, or step in time with damping.",
+                        share, report.residual, newton.tolerance));
+    }
+  }
+  const Eigen::Index n = p.cols();
+  const double time = state.time;
+  state = BodyState{};
+  state.positions = std::move(p);
+  state.velocities.setZero(3, n);
+  state.time = time;
+  return report;
+}
+
+}  // namespace argil::fem

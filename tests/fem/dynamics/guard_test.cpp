@@ -1,0 +1,231 @@
+#include "fem/dynamics/guard.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "fem/loads.h"
+#include "fem/measure/energy.h"
+#include "subdiv/error.h"
+#include "tests/fem/simulated_solid.h"
+
+namespace argil::fem {
+namespace {
+
+using test::SimulatedSolid;
+
+constexpr Method k_explicit[] = {Method::central_difference, Method::forward_euler, Method::symplectic_euler,
+                                 Method::velocity_verlet, Method::midpoint};
+
+double total(const SimulatedSolid& solid) {
+  const Energy parts = energy(solid.system, solid.state);
+  return parts.kinetic + parts.elastic;
+}
+
+/// A model behind another, that can be told to misbehave.
+class Faulty : public ForceModel {
+ public:
+  explicit Faulty(const ForceModel& model) : model_(model) {}
+  std::string_view name() const override { return "faulty"; }
+  Promises promises() const override {
+    Promises promises = model_.promises();
+    promises.inversion_is_error = inversion_is_error;
+    return promises;
+  }
+  double energy(const Eigen::Matrix3Xd& x) const override { return model_.energy(x); }
+  void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
+    model_.forces(x, forces);
+    if (broken) forces.setConstant(std::nan(""));
+    forces *= sign;
+  }
+  std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd& x, Projection projection) const override {
+    return model_.tangent(x, projection);
+  }
+  bool broken = false, inversion_is_error = false;
+  double sign = 1;
+
+ private:
+  const ForceModel& model_;
+};
+
+TEST(Guard, LeavesGentleMotionAlone) {
+  for (const MethodKind& kind : method_table()) {
+    SCOPED_TRACE(kind.name);
+    SimulatedSolid solid(test::box(4, 1, 1, {0.4, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+    solid.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+    SimulatedSolid bare(test::box(4, 1, 1, {0.4, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+    bare.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+    const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+    Integrator integrator(solid.system), other(bare.system);
+    StepOptions options;
+    options.method = kind.method;
+    GuardState guard;
+    // The highest frequency is some 170 rad/s; forward Euler's modes grow by exp(ω² h t/2) = e^0.9.
+    const double h = kind.is_implicit ? 1.0 / 60 : (kind.method == Method::forward_euler ? 2e-4 : 2e-3);
+    for (int i = 0; i < 150; ++i) {
+      const GuardedReport report = guarded_step(integrator, loads, solid.state, guard, h, options);
+      ASSERT_EQ(report.remedy, GuardRemedy::none) << "step " << i << " " << word(report.finding);
+      static_cast<void>(other.step(loads, bare.state, h, options));
+    }
+    EXPECT_EQ(solid.state.positions, bare.state.positions);
+    EXPECT_EQ(guard.failures, 0);
+  }
+}
+
+TEST(Guard, KeepsExplicitMethodsBoundedAtTenTimesTheirLimit) {
+  for (const Method method : k_explicit) {
+    SCOPED_TRACE(method_kind(method).name);
+    SimulatedSolid solid(test::box(3, 1, 1, {0.3, 0.1, 0.1}), 0, {1e6, 0.3, 1000, 0});
+    solid.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+    const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+    Integrator integrator(solid.system);
+    StepOptions options;
+    options.method = method;
+    GuardState guard;
+    int helped = 0;
+    // The limit is 2/1700 s; the substeps are stable from an eighth on, or implicit Euler takes over.
+    for (int i = 0; i < 200; ++i) {
+      const GuardedReport report = guarded_step(integrator, loads, solid.state, guard, 1.0 / 100, options);
+      helped += report.remedy == GuardRemedy::substeps || report.remedy == GuardRemedy::implicit_euler;
+      ASSERT_TRUE(solid.state.positions.allFinite() && solid.state.velocities.allFinite());
+    }
+    EXPECT_GT(helped, 10);
+    EXPECT_FALSE(guard.frozen);
+    EXPECT_NEAR(solid.state.time, 2, 1e-9);
+    // The tip hangs ρ g A L⁴/(8EI) + shear = 0.4 mm down, and swings by twice that.
+    EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 5e-3);
+  }
+}
+
+TEST(Guard, EnergyFromNowhereStaysBelowWhatWasPutIn) {
+  // Without a load all energy is that of the start; the guard lets it double at most, and a method that gains a
+  // little at every step is caught as well as one that explodes.
+  for (const Method method : k_explicit) {
+    SCOPED_TRACE(method_kind(method).name);
+    SimulatedSolid solid(test::box(2, 2, 2, {0.2, 0.2, 0.2}), 0, {1e5, 0.3, 1000, 0});
+    for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
+      solid.state.velocities.col(i) = Eigen::Vector3d(2 * std::sin(5.0 * static_cast<double>(i)),
+                                                      2 * std::cos(3.0 * static_cast<double>(i)), 1);
+    const double begin = total(solid);
+    Integrator integrator(solid.system);
+    StepOptions options;
+    options.method = method;
+    GuardState guard;
+    double most = 0;
+    bool acted = false;
+    for (int i = 0; i < 2000; ++i) {
+      acted |= guarded_step(integrator, {}, solid.state, guard, 1e-3, options).remedy != GuardRemedy::none;
+      most = std::max(most, total(solid));
+    }
+    EXPECT_FALSE(guard.frozen);
+    EXPECT_LE(most, 2.05 * begin);
+    EXPECT_EQ(acted, method == Method::midpoint || method == Method::forward_euler);
+  }
+}
+
+TEST(Guard, TakesBackWhatIsNotFiniteThenFreezesAndThaws) {
+  SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+  Faulty model(*solid.model);
+  solid.system.model = &model;
+  solid.state.velocities.row(0).setConstant(0.5);
+  Integrator integrator(solid.system);
+  GuardState guard;
+  static_cast<void>(guarded_step(integrator, {}, solid.state, guard, 0.01, {}));
+  model.broken = true;
+  const Eigen::Matrix3Xd good = solid.state.positions;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(guard.frozen);
+    const GuardedReport report = guarded_step(integrator, {}, solid.state, guard, 0.01, {});
+    EXPECT_EQ(report.finding, GuardFinding::not_finite);
+    EXPECT_EQ(report.remedy, i < 2 ? GuardRemedy::restored : GuardRemedy::frozen);
+    EXPECT_EQ(solid.state.positions, good);
+    EXPECT_EQ(solid.state.velocities.norm(), 0);
+  }
+  EXPECT_TRUE(guard.frozen);
+  EXPECT_EQ(guard.cause, GuardFinding::not_finite);
+  model.broken = false;
+  EXPECT_EQ(guarded_step(integrator, {}, solid.state, guard, 0.01, {}).remedy, GuardRemedy::frozen);
+  EXPECT_NEAR(solid.state.time, 0.05, 1e-12);
+  guard = {};
+  solid.state.velocities.row(0).setConstant(0.5);
+  EXPECT_EQ(guarded_step(integrator, {}, solid.state, guard, 0.01, {}).remedy, GuardRemedy::none);
+  EXPECT_NE(solid.state.positions, good);
+}
+
+TEST(Guard, AnUntroubledStepForgetsFailures) {
+  SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+  Faulty model(*solid.model);
+  solid.system.model = &model;
+  Integrator integrator(solid.system);
+  GuardState guard;
+  const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+  for (int i = 0; i < 8; ++i) {
+    model.broken = i % 2 == 0;
+    // The integrator remembers nothing of a model that is wrong: forces are asked anew.
+    static_cast<void>(guarded_step(integrator, loads, solid.state, guard, 0.01, {}));
+    EXPECT_EQ(guard.failures, i % 2 == 0 ? 1 : 0);
+  }
+  EXPECT_FALSE(guard.frozen);
+}
+
+TEST(Guard, TakesBackInversionWhereItIsAnError) {
+  // Thrown through itself by a push of 60 m/s² on one side, a soft cube turns inside out in one long step.
+  for (const bool is_error : {false, true}) {
+    SimulatedSolid solid(test::box(2, 2, 2, {0.1, 0.1, 0.1}), 0, {200, 0.3, 1000, 0});
+    solid.fix([](const Eigen::Vector3d& x) { return x.z() < 1e-9; });
+    Faulty model(*solid.model);
+    model.inversion_is_error = is_error;
+    solid.system.model = &model;
+    const Loads loads{gravity_forces(solid.discretization, {0, 0, -60}), {}};
+    Integrator integrator(solid.system);
+    GuardState guard;
+    std::size_t most = 0;
+    int found = 0;
+    for (int i = 0; i < 30; ++i) {
+      found += guarded_step(integrator, loads, solid.state, guard, 1.0 / 30, {}).finding == GuardFinding::inversion;
+      most = std::max(most, inverted_points(solid.system, solid.state.positions));
+    }
+    if (is_error) {
+      EXPECT_GT(found, 0);
+      EXPECT_EQ(most, 0U);
+    } else {
+      EXPECT_EQ(found, 0);
+      EXPECT_GT(most, 0U);
+    }
+  }
+}
+
+TEST(Guard, SeesForcesThatHaveNoEnergy) {
+  // Forces that push away from rest gain energy at any step.
+  SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+  Faulty model(*solid.model);
+  model.sign = -1;
+  solid.system.model = &model;
+  solid.state.positions.row(0) *= 1.01;
+  Integrator integrator(solid.system);
+  StepOptions options;
+  options.method = Method::velocity_verlet;
+  GuardState guard;
+  for (int i = 0; i < 500 && !guard.frozen; ++i)
+    static_cast<void>(guarded_step(integrator, {}, solid.state, guard, 2e-3, options));
+  EXPECT_TRUE(guard.frozen);
+  EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(Guard, PassesOnWhatIsWrongWithTheArguments) {
+  SimulatedSolid solid(test::box(1, 1, 1, {1, 1, 1}), 0);
+  Integrator integrator(solid.system);
+  GuardState guard;
+  EXPECT_THROW(guarded_step(integrator, {}, solid.state, guard, -1, {}), Error);
+}
+
+TEST(Guard, CountsPointsThatAreInsideOut) {
+  SimulatedSolid solid(test::box(2, 1, 1, {2, 1, 1}), 0);
+  EXPECT_EQ(inverted_points(solid.system, solid.rest), 0U);
+  Eigen::Matrix3Xd mirrored = solid.rest;
+  mirrored.row(1) *= -1;
+  EXPECT_EQ(inverted_points(solid.system, mirrored), 16U);
+}
+
+}  // namespace
+}  // namespace argil::fem
