@@ -49,6 +49,15 @@ struct RenderArguments {
 };
 int render(const RenderArguments& arguments);
 
+struct ChartArguments {
+  std::filesystem::path session, out = "out/chart";                // no session: the problems of the chart
+  std::vector<std::string> problems, models, spaces, integrators;  // empty: all
+  bool quick = false, every = false, list = false, quiet = false;
+  int threads = 0;   // 0: all
+  double limit = 0;  // seconds a run; 0: as the breadth says
+};
+int chart(const ChartArguments& arguments);
+
 int help(const std::string& command);
 int help_document();
 
