@@ -22,8 +22,11 @@ std::string figures(const Panel& panel, const Row& row) {
   return fmt::format("{} in {}", percent_text(row.error), time_text(panel.time(row)));
 }
 
-std::string law_note(const Row& row) {
-  return row.same_law ? "" : " (hollow: another law than the reference's)";
+// Worth a word only where others have the reference's law.
+std::string law_note(const Panel& panel, const Row& row) {
+  const bool any = std::any_of(panel.rows.begin(), panel.rows.end(),
+                               [&](const Row& r) { return r.same_law && std::isfinite(panel.time(r)); });
+  return row.same_law || !any ? "" : " (of another law than the reference's)";
 }
 
 // The fastest run for each bound on the error, bounds with the same answer together.
@@ -46,12 +49,13 @@ void say_fastest(const Panel& panel, const std::vector<std::size_t>& front, std:
   for (const std::size_t i : order) {
     const Row& row = panel.rows[i];
     to.push_back(fmt::format("For an error below {} the fastest is {}: {} with {} unknowns{}.",
-                             joined(bounds_of[i]), name_of(row), figures(panel, row), row.unknowns, law_note(row)));
+                             joined(bounds_of[i]), name_of(row), figures(panel, row), row.unknowns,
+                             law_note(panel, row)));
   }
   if (unreached.empty()) return;
   const Row& nearest = panel.rows[front.back()];
   to.push_back(fmt::format("No run came below {}; nearest is {}, {}{}.", unreached.front(), name_of(nearest),
-                           figures(panel, nearest), law_note(nearest)));
+                           figures(panel, nearest), law_note(panel, nearest)));
 }
 
 void say_fewest_unknowns(const Panel& panel, std::vector<std::string>& to) {
@@ -85,9 +89,10 @@ void say_default(const Panel& panel, const std::vector<std::size_t>& front, std:
       return;
     }
     if (judged_error(panel, row) > judged_error(panel, *best)) continue;
-    to.push_back(fmt::format("The best of {} has {}; {} is as accurate {:.1f} times faster{}.", what,
-                             figures(panel, *best), name_of(row), panel.time(*best) / panel.time(row),
-                             law_note(row)));
+    const double ratio = panel.time(*best) / panel.time(row);
+    to.push_back(fmt::format("The best of {} has {}; {} is as accurate {}{}.", what, figures(panel, *best),
+                             name_of(row), ratio < 1.05 ? "and as fast" : fmt::format("{:.1f} times faster", ratio),
+                             law_note(panel, row)));
     return;
   }
 }
@@ -117,7 +122,7 @@ void say_lucky(const Panel& panel, std::vector<std::string>& to) {
     bool low = false, high = false;
     for (const std::size_t i : s.rows) {
       const Row& row = panel.rows[i];
-      if (row.error <= panel.uncertainty) continue;
+      if (std::abs(row.signed_error) <= std::max(panel.uncertainty, 1e-2 * row.error)) continue;
       (row.signed_error < 0 ? low : high) = true;
     }
     const Row& row = panel.rows[s.rows.front()];
@@ -173,7 +178,7 @@ Findings findings(const Panel& panel) {
   Findings result;
   const std::vector<std::size_t> front = pareto_front(panel);
   if (front.empty()) {
-    result.choice.push_back("No run of this problem ended well.");
+    result.choice.push_back("No run of this problem came nearer than the size of the answer itself.");
   } else {
     say_fastest(panel, front, result.choice);
     say_fewest_unknowns(panel, result.choice);

@@ -18,7 +18,7 @@ constexpr std::array k_colours{"#3b82c4", "#d55e00", "#009e73", "#b55fb0", "#c99
                                "#d6556b", "#7a6fd0", "#7f9a2d", "#2aa198", "#a9744f", "#8a8f98"};
 constexpr double k_left = 92, k_top = 92, k_plot_width = 660, k_plot_height = 420, k_legend = 780;
 constexpr double k_width = 1040;
-constexpr double k_least_error = 1e-7, k_largest_error = 10;
+constexpr double k_least_error = 1e-6, k_largest_error = 10;
 constexpr double k_font = 12;
 
 const char* const k_style = R"(<style>
@@ -113,7 +113,7 @@ Plot plot_of(const Panel& panel) {
 }
 
 std::string tick_percent(double ratio) {
-  return fmt::format("{:g} %", 100 * ratio);
+  return 100 * ratio < 9e-5 ? fmt::format("{:.0e} %", 100 * ratio) : fmt::format("{:.6g} %", 100 * ratio);
 }
 std::string tick_time(double milliseconds) {
   if (milliseconds >= 999.9) return fmt::format("{:g} s", milliseconds / 1e3);
@@ -177,8 +177,14 @@ class Painter {
   std::string draw() {
     std::string body = text(k_left, 34, panel_.title, "title");
     body += text(k_left, 54, panel_.quantity, "quiet") + text(k_left, 71, "Reference: " + panel_.source, "quiet");
-    body +=
-        grid(panel_, plot_) + noise() + real_time() + front_line() + lines() + markers() + labels() + failures();
+    body += grid(panel_, plot_);
+    body += noise();
+    body += real_time();
+    body += front_line();
+    body += lines();
+    body += markers();
+    body += labels();  // last, where the others have left room
+    body += failures();
     const Legend legend = draw_legend();
     const double height = std::max(580.0, legend.bottom + 24);
     return fmt::format(

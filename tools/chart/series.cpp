@@ -35,7 +35,7 @@ std::vector<std::size_t> pareto_front(const Panel& panel) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const double time = panel.time(panel.rows[i]);
-    if (!std::isfinite(time)) continue;
+    if (!std::isfinite(time) || panel.rows[i].error >= 1) continue;
     points.push_back({time, judged_error(panel, panel.rows[i])});
     rows.push_back(i);
   }
@@ -90,10 +90,9 @@ std::string time_text(double milliseconds) {
 
 std::string percent_text(double ratio) {
   const double percent = 100 * ratio;
-  if (percent >= 1000) return fmt::format("{:.0f} times", ratio);
+  if (percent >= 1e6 || (percent != 0 && percent < 1e-4)) return fmt::format("{:.1e} %", percent);
   if (percent >= 100) return fmt::format("{:.0f} %", percent);
-  if (percent != 0 && std::abs(percent) < 1e-4) return fmt::format("{:.1e} %", percent);
-  return fmt::format("{:.2g} %", percent);
+  return fmt::format("{:.3g} %", percent);
 }
 
 std::string time_step_text(double seconds) {

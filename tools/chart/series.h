@@ -31,7 +31,7 @@ struct Point {
 /// points the first. Cost O(n log n).
 [[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<Point>& points);
 
-/// Rows of the panel on its front, fastest first.
+/// Rows of the panel on its front, fastest first. What is off by as much as the answer itself does not count.
 [[nodiscard]] std::vector<std::size_t> pareto_front(const Panel& panel);
 
 /// One line of the chart: rows that differ in resolution (in motion: in the time step) only, coarse to fine.
