@@ -9,8 +9,10 @@
 #include <csignal>
 #include <thread>
 
+#include "io/file_bytes.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
+#include "tools/chart/session_chart.h"
 
 namespace argil::tools {
 
@@ -62,16 +64,47 @@ class Progress {
   bool quiet_, terminal_;
 };
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw Error(ErrorCode::bad_input, fmt::format("the folder '{}' cannot be made ({}); choose another with --out",
+                                                  folder.string(), failure.message()));
+}
+
+int chart_of_session(const ChartArguments& arguments, const chart::Choice& choice, const chart::Setting& setting) {
+  if (!arguments.problems.empty() || arguments.quick || arguments.every)
+    throw Error(ErrorCode::bad_input,
+                "a session is charted as it is; leave out --problem, --quick and --all, or leave out the session");
+  static_cast<void>(chart::chosen(chart::all_lists(), choice));  // refuses names that are not there
+  const auto folder = arguments.out / arguments.session.stem();
+  make_folder(folder);
+  const chart::SessionFile session{arguments.session, io::read_file(arguments.session)};
+  chart::Table table(folder / "chart.csv");
+  std::size_t number = 0;
+  try {
+    const chart::Panel panel = chart::chart_session(
+        session, choice, setting, table, folder, [&](const std::string& label, const chart::Row* row) {
+          if (arguments.quiet) return;
+          if (!row) return fmt::print(stderr, "{:>5}  {}\n", ++number, label);
+          fmt::print(stderr, "       {}\n",
+                     row->status == chart::Status::ok
+                         ? fmt::format("error {}, {}", chart::percent_text(row->error), chart::time_text(row->ms))
+                         : fmt::format("{}: {}", chart::word(row->status), row->message));
+        });
+    chart::write_results(folder, {panel});
+  } catch (const chart::Stopped&) {
+    fmt::print("Stopped; the same command goes on.\n");
+    return k_well;
+  }
+  if (!arguments.quiet) fmt::print("open {}\n", (folder / "chart.html").string());
+  return k_well;
+}
+
 }  // namespace
 
 int chart(const ChartArguments& arguments) {
   const chart::Choice choice{arguments.problems, arguments.models, arguments.spaces, arguments.integrators};
-  chart::Lists lists = chart::chosen(chart::all_lists(), choice);
-  if (arguments.list) {
-    print_lists(lists);
-    return k_well;
-  }
-  if (arguments.quick && arguments.problems.empty()) lists = chart::quick_problems(std::move(lists));
   chart::Setting setting;
   setting.clock = seconds;
   setting.threads =
@@ -80,16 +113,19 @@ int chart(const ChartArguments& arguments) {
   setting.stopped = [] { return stop_asked.load(); };
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(setting.threads));
+  std::signal(SIGINT, ask_to_stop);
+  if (!arguments.session.empty()) return chart_of_session(arguments, choice, setting);
+  chart::Lists lists = chart::chosen(chart::all_lists(), choice);
+  if (arguments.list) {
+    print_lists(lists);
+    return k_well;
+  }
+  if (arguments.quick && arguments.problems.empty()) lists = chart::quick_problems(std::move(lists));
   const auto runs = chart::plan(lists, arguments.quick   ? chart::Breadth::quick
                                        : arguments.every ? chart::Breadth::all
                                                          : chart::Breadth::usual);
-  std::error_code failure;
-  std::filesystem::create_directories(arguments.out, failure);
-  if (failure)
-    throw Error(ErrorCode::bad_input, fmt::format("the folder '{}' cannot be made ({}); choose another with --out",
-                                                  arguments.out.string(), failure.message()));
+  make_folder(arguments.out);
   chart::Table table(arguments.out / "chart.csv");
-  std::signal(SIGINT, ask_to_stop);
   const double begin = seconds();
   bool stopped = false;
   const Progress progress(runs.size(), arguments.quiet);
