@@ -185,6 +185,28 @@ int run(int argc, char** argv) {
     if (!bench_integrator.empty()) benching.overrides["integrator"] = bench_integrator;
     status = bench_models(benching);
   });
+  ChartArguments charting;
+  CLI::App* chart_app = app.add_subcommand("chart",
+                                           "Charts speed against accuracy: methods on problems with known "
+                                           "answers, or on a session of yours");
+  chart_app->add_option("session", charting.session,
+                        "a session file, compared with its own refinement (default: the problems of the chart)");
+  chart_app->add_option("--out", charting.out, "folder for chart.csv, chart.html and the pictures")
+      ->capture_default_str();
+  chart_app->add_flag("--quick", charting.quick, "few problems, coarse bodies: about two minutes on two cores");
+  chart_app->add_flag("--all", charting.every, "every integrator with every model in every space: hours");
+  chart_app->add_option("--problem", charting.problems, "only these problems");
+  chart_app->add_option("--model", charting.models, "only these models");
+  chart_app->add_option("--space", charting.spaces, "only these spaces");
+  chart_app->add_option("--integrator", charting.integrators, "only these integrators");
+  chart_app->add_option("--threads", charting.threads, "threads of each run")->check(CLI::Range(1, 1024));
+  chart_app->add_option("--limit", charting.limit, "stop a run after so many seconds (default: 60, quick 5)")
+      ->check(CLI::PositiveNumber);
+  chart_app->add_flag("--list", charting.list, "print the names of problems, models, spaces and integrators");
+  chart_app->add_flag("--quiet", charting.quiet, "no progress");
+  chart_app->footer(
+      "Rows are appended to chart.csv as they finish; the same command goes on where it was stopped.");
+  chart_app->callback([&] { status = chart(charting); });
 
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");

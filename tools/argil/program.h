@@ -60,6 +60,14 @@ struct BenchArguments {
 /// Every session of the folder, simulated under gravity after its end, beside the table of papers/004 where the
 /// name is one of its models.
 int bench_models(BenchArguments arguments);
+struct ChartArguments {
+  std::filesystem::path session, out = "out/chart";                // no session: the problems of the chart
+  std::vector<std::string> problems, models, spaces, integrators;  // empty: all
+  bool quick = false, every = false, list = false, quiet = false;
+  int threads = 0;   // 0: all
+  double limit = 0;  // seconds a run; 0: as the breadth says
+};
+int chart(const ChartArguments& arguments);
 
 int help(const std::string& command);
 int help_document();
