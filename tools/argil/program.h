@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sculpt/document.h"
+#include "tools/argil/body.h"
 
 namespace argil::tools {
 
@@ -48,6 +49,23 @@ struct RenderArguments {
   std::size_t max_cells = sculpt::Limits{}.cells;
 };
 int render(const RenderArguments& arguments);
+
+struct ModesArguments {
+  BodyArguments body;
+  int count = 6;
+  std::string at = "present";  // or rest: where the stiffness is taken
+  std::filesystem::path out;   // for modes.vtu; empty: none
+  bool json = false;
+};
+int modes(const ModesArguments& arguments);
+
+struct MatricesArguments {
+  BodyArguments body;
+  std::string at = "present";
+  std::filesystem::path out;
+  bool json = false;
+};
+int export_matrices(const MatricesArguments& arguments);
 
 int help(const std::string& command);
 int help_document();
