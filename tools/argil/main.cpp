@@ -199,6 +199,25 @@ int run(int argc, char** argv) {
   matrices_app->add_flag("--json", exporting.json, "print the list of files as JSON");
   matrices_app->callback([&] { status = export_matrices(exporting); });
 
+  AtlasArguments mapping;
+  CLI::App* atlas_app = app.add_subcommand(
+      "atlas", "Maps where each force model with each integrator is stable, inaccurate, or diverges");
+  atlas_app->add_option("session", mapping.session, "a session whose end is mapped instead of the built-in scenes");
+  atlas_app
+      ->add_option("--out", mapping.out, "folder for probes.csv, the maps and index.html; what is there is kept")
+      ->capture_default_str();
+  atlas_app->add_option("--sweep", mapping.sweeps, "one of --list; may be repeated (default: all)");
+  atlas_app->add_option("--model", mapping.models, "a force model; may be repeated (default: all)");
+  atlas_app->add_option("--integrator", mapping.integrators, "an integrator; may be repeated (default: all)");
+  atlas_app->add_option("--threads", mapping.threads, "threads; the results are the same for any number")
+      ->check(CLI::Range(1, 1024));
+  atlas_app->add_flag("--quick", mapping.quick,
+                      "coarse maps; every model with bdf2 and every integrator with corotational");
+  atlas_app->add_flag("--list", mapping.list, "list sweeps, models and integrators, and run nothing");
+  atlas_app->add_flag("--quiet", mapping.quiet, "no progress");
+  atlas_app->footer("A run that was stopped goes on where it was: probes.csv keeps every finished probe.");
+  atlas_app->callback([&] { status = stability_atlas(mapping); });
+
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
   bool document = false;

@@ -67,6 +67,15 @@ struct MatricesArguments {
 };
 int export_matrices(const MatricesArguments& arguments);
 
+struct AtlasArguments {
+  std::filesystem::path session;  // a body of the user's; empty: none
+  std::filesystem::path out = "out/atlas";
+  std::vector<std::string> sweeps, models, integrators;  // empty: all
+  int threads = 0;                                       // 0: all
+  bool quick = false, list = false, quiet = false;
+};
+int stability_atlas(const AtlasArguments& arguments);
+
 int help(const std::string& command);
 int help_document();
 
