@@ -42,6 +42,20 @@ void report_abort(int) {
   _exit(k_own_bug);
 }
 
+void add_body_options(CLI::App* app, BodyArguments& body, const std::string& mesh_endings) {
+  app->add_option("body", body.input, "a session (.argil), run to its end, or a volume mesh: " + mesh_endings)
+      ->required();
+  app->add_option("--levels", body.levels, "refinements (default: the session's; 1 for a mesh)")
+      ->check(CLI::Range(0, 8));
+  app->add_option("--space", body.space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
+  app->add_option("--model", body.model, "the force model; `argil help model` lists them");
+  app->add_option("--pin", body.pins, "hold control vertices, as in --pin \"x < 0.01\"; may be repeated");
+  app->add_option("--with", body.lines,
+                  "a further line of session commands, as in --with \"set young_modulus 1e6\"; may be repeated");
+  app->add_option("--max-cells", body.limits.cells, "refuse to make more cells")->capture_default_str();
+  app->add_option("--max-memory", body.limits.memory, "bytes, estimated before allocating")->capture_default_str();
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
@@ -207,6 +221,52 @@ int run(int argc, char** argv) {
   chart_app->footer(
       "Rows are appended to chart.csv as they finish; the same command goes on where it was stopped.");
   chart_app->callback([&] { status = chart(charting); });
+  ModesArguments vibrating;
+  CLI::App* modes_app =
+      app.add_subcommand("modes", "Lowest frequencies and mode shapes of a body, and its largest explicit step");
+  add_body_options(modes_app, vibrating.body, mesh_endings);
+  modes_app->add_option("--count", vibrating.count, "how many modes")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  modes_app->add_option("--at", vibrating.at, "where the stiffness is taken: the present state or the rest shape")
+      ->check(CLI::IsMember({"present", "rest"}))
+      ->capture_default_str();
+  modes_app->add_option("--out", vibrating.out, "folder for modes.vtu, one displacement field a mode");
+  modes_app->add_flag("--json", vibrating.json, "print as JSON");
+  modes_app->footer(
+      "A frequency of 0 is a rigid motion that nothing holds, a negative one in JSON an instability.");
+  modes_app->callback([&] { status = modes(vibrating); });
+
+  MatricesArguments exporting;
+  CLI::App* matrices_app = app.add_subcommand(
+      "export-matrices", "Stencils, mass, stiffness and damping of a body in Matrix Market files");
+  add_body_options(matrices_app, exporting.body, mesh_endings);
+  matrices_app
+      ->add_option("--at", exporting.at, "where the stiffness is taken: the present state or the rest shape")
+      ->check(CLI::IsMember({"present", "rest"}))
+      ->capture_default_str();
+  matrices_app->add_option("--out", exporting.out, "folder for the files")->required();
+  matrices_app->add_flag("--json", exporting.json, "print the list of files as JSON");
+  matrices_app->callback([&] { status = export_matrices(exporting); });
+
+  AtlasArguments mapping;
+  CLI::App* atlas_app = app.add_subcommand(
+      "atlas", "Maps where each force model with each integrator is stable, inaccurate, or diverges");
+  atlas_app->add_option("session", mapping.session, "a session whose end is mapped instead of the built-in scenes");
+  atlas_app
+      ->add_option("--out", mapping.out, "folder for probes.csv, the maps and index.html; what is there is kept")
+      ->capture_default_str();
+  atlas_app->add_option("--sweep", mapping.sweeps, "one of --list; may be repeated (default: all)");
+  atlas_app->add_option("--model", mapping.models, "a force model; may be repeated (default: all)");
+  atlas_app->add_option("--integrator", mapping.integrators, "an integrator; may be repeated (default: all)");
+  atlas_app->add_option("--threads", mapping.threads, "threads; the results are the same for any number")
+      ->check(CLI::Range(1, 1024));
+  atlas_app->add_flag("--quick", mapping.quick,
+                      "coarse maps; every model with bdf2 and every integrator with corotational");
+  atlas_app->add_flag("--list", mapping.list, "list sweeps, models and integrators, and run nothing");
+  atlas_app->add_flag("--quiet", mapping.quiet, "no progress");
+  atlas_app->footer("A run that was stopped goes on where it was: probes.csv keeps every finished probe.");
+  atlas_app->callback([&] { status = stability_atlas(mapping); });
 
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");

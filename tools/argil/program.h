@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sculpt/document.h"
+#include "tools/argil/body.h"
 
 namespace argil::tools {
 
@@ -68,6 +69,31 @@ struct ChartArguments {
   double limit = 0;  // seconds a run; 0: as the breadth says
 };
 int chart(const ChartArguments& arguments);
+struct ModesArguments {
+  BodyArguments body;
+  int count = 6;
+  std::string at = "present";  // or rest: where the stiffness is taken
+  std::filesystem::path out;   // for modes.vtu; empty: none
+  bool json = false;
+};
+int modes(const ModesArguments& arguments);
+
+struct MatricesArguments {
+  BodyArguments body;
+  std::string at = "present";
+  std::filesystem::path out;
+  bool json = false;
+};
+int export_matrices(const MatricesArguments& arguments);
+
+struct AtlasArguments {
+  std::filesystem::path session;  // a body of the user's; empty: none
+  std::filesystem::path out = "out/atlas";
+  std::vector<std::string> sweeps, models, integrators;  // empty: all
+  int threads = 0;                                       // 0: all
+  bool quick = false, list = false, quiet = false;
+};
+int stability_atlas(const AtlasArguments& arguments);
 
 int help(const std::string& command);
 int help_document();
