@@ -172,22 +172,45 @@ bool ElementStiffness::is_current() const {
 
 namespace {
 
-/// Eight rows at a time, column after column, so that nothing is reduced across lanes.
+ARGIL_LANES_INLINE Lanes load_four(const double* from) {
+  Lanes x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+ARGIL_LANES_INLINE void store_four(double* to, const Lanes& x) {
+  std::memcpy(to, &x, sizeof x);
+}
+
+/// Nothing is reduced across lanes: each row sums its columns in order. Small matrices go eight rows at a time,
+/// with the sums in registers; large ones, which come from memory, three columns at a time, each read from end to
+/// end.
 ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, const double* v, double* result) {
   std::size_t row = 0;
-  for (; row + 8 <= size; row += 8) {
-    Lanes low = broadcast(0), high = broadcast(0);
-    for (std::size_t j = 0; j < size; ++j) {
-      Lanes a, b;
-      std::memcpy(&a, matrix + j * size + row, sizeof a);
-      std::memcpy(&b, matrix + j * size + row + 4, sizeof b);
-      low += a * v[j];
-      high += b * v[j];
+  const std::size_t whole = size / 8 * 8;
+  if (size <= 32) {
+    for (; row < whole; row += 8) {
+      Lanes low = broadcast(0), high = broadcast(0);
+      for (std::size_t j = 0; j < size; ++j) {
+        low += load_four(matrix + j * size + row) * v[j];
+        high += load_four(matrix + j * size + row + 4) * v[j];
+      }
+      store_four(result + row, low);
+      store_four(result + row + 4, high);
     }
-    std::memcpy(result + row, &low, sizeof low);
-    std::memcpy(result + row + 4, &high, sizeof high);
+  } else {
+    for (std::size_t i = 0; i < whole; ++i) result[i] = 0;
+    for (std::size_t j = 0; j < size; j += 3) {  // rows of three axes
+      const double *first = matrix + j * size, *second = first + size, *third = second + size;
+      for (row = 0; row < whole; row += 4) {
+        Lanes sum = load_four(result + row);
+        sum += load_four(first + row) * v[j];
+        sum += load_four(second + row) * v[j + 1];
+        sum += load_four(third + row) * v[j + 2];
+        store_four(result + row, sum);
+      }
+    }
   }
-  for (; row < size; ++row) {
+  for (row = whole; row < size; ++row) {
     double sum = 0;
     for (std::size_t j = 0; j < size; ++j) sum += matrix[j * size + row] * v[j];
     result[row] = sum;

@@ -34,6 +34,10 @@ double deflection(const Bar& bar) {
   return centre.z() - position(locate(solid.discretization, centre).stencil, x).z();
 }
 
+/// −u_z of the tip at ν = 0.49 [m], linear: quadratic tetrahedra in 8×2×2 and 12×3×3 cells give 0.046674 and
+/// 0.047152, extrapolated to ± 0.0003.
+constexpr double k_limit_049 = 0.0478;
+
 /// Tip error in % of REFERENCES' limit, on the meshes 4×1×1, 8×2×2, 16×4×4.
 std::array<double, 3> errors(const ModelChoice& model, double poisson_ratio = 0.3, double limit = 0.0490) {
   std::array<double, 3> result{};
@@ -64,16 +68,13 @@ TEST(Formulations, CantileverErrorsAreThoseOfMethods) {
 }
 
 TEST(Formulations, PlainHexahedraLockWhereTheyAreNearlyIncompressible) {
-  // Their error against the limit at this ν, as ours with incompatible modes and as quadratic tetrahedra have it.
-  const ModelChoice bubbles{"linear", Formulation::incompatible_modes};
-  const double limit = deflection({{24, 6, 6}, 0.49, bubbles});
-  std::printf("nu 0.49, incompatible modes 24x6x6: %.6f\n", limit);
-  const auto plain = errors({"linear", Formulation::plain}, 0.49, limit);
-  const auto b_bar = errors({"linear", Formulation::b_bar}, 0.49, limit);
-  EXPECT_NEAR(plain[0], -68, 0.7);
-  EXPECT_NEAR(plain[1], -50, 0.7);
-  EXPECT_NEAR(plain[2], -30, 0.7);
-  EXPECT_GT(b_bar[2], -5);
+  // METHODS §3 gives −68, −50, −30 %. The limit is known to 0.6 % only, so that figures hold to one of their units.
+  const auto plain = errors({"linear", Formulation::plain}, 0.49, k_limit_049);
+  EXPECT_NEAR(plain[0], -68, 1);
+  EXPECT_NEAR(plain[1], -50, 1);
+  EXPECT_NEAR(plain[2], -30, 1);
+  // Mean dilatation leaves the slow convergence at the clamped edges, whose singularity grows with ν.
+  EXPECT_NEAR(errors({"linear", Formulation::b_bar}, 0.49, k_limit_049)[2], -3, 1);
 }
 
 /// Force on the plates of REFERENCES §5 [N], n³ elements in one of eight equal parts.
