@@ -69,9 +69,34 @@ Stencils select_rows(const Stencils& from, const std::vector<std::uint32_t>& row
   return result;
 }
 
-void build_standard(Discretization& to, const subdiv::Refinement& refinement) {
+/// Cells of the published criterion, on the vertices of the finest level; those that are left.
+std::vector<std::uint8_t> add_published_block(Discretization& to, const subdiv::Refinement& refinement) {
+  const Solid& solid = refinement.solid();
+  auto classes = subdiv::classify_cells(solid);
+  for (const CellId c : solid.cells())
+    if (classes[c] != CellClass::regular_published) classes[c] = CellClass::extraordinary;
+  const subdiv::RegularNets nets = subdiv::regular_nets(solid, classes);
+  assert(nets.phantoms.row_count() == 0);
+  std::vector<std::uint8_t> left(solid.cell_capacity(), 1);
+  if (nets.cells.empty()) return left;
+  ElementBlock& block = add_block(to, bspline_hexahedron());
+  for (std::size_t n = 0; n < nets.cells.size(); ++n) {
+    left[nets.cells[n].index()] = 0;
+    block.nodes.insert(block.nodes.end(), nets.nodes[n].begin(), nets.nodes[n].end());
+    block.origins.push_back({static_cast<std::uint16_t>(refinement.finest()), nets.cells[n].value, 0});
+    for (const VertexId v : subdiv::box_vertices(solid, nets.cells[n]))
+      to.field_samples.corners.back().push_back(v.value);
+  }
+  return left;
+}
+
+/// All elements on the vertices of the finest level: trilinear ones, or where `published`, tricubic ones as well.
+void build_on_finest(Discretization& to, const subdiv::Refinement& refinement, bool published) {
   LinearCells cells{&refinement.solid(), refinement.finest(), {}};
-  for (const CellId c : refinement.solid().cells()) cells.cells.push_back(c);
+  const std::vector<std::uint8_t> left =
+      published ? add_published_block(to, refinement) : std::vector<std::uint8_t>();
+  for (const CellId c : refinement.solid().cells())
+    if (left.empty() || left[c.index()]) cells.cells.push_back(c);
   const LinearMesh mesh = mesh_linearly(cells);
   const std::size_t vertices = refinement.solid().vertex_capacity();
   NodeTable& table = to.nodes;
@@ -240,6 +265,32 @@ void set_geometry(Discretization& to) {
 
 }  // namespace
 
+std::span<const SpaceKind> space_table() {
+  static constexpr SpaceKind table[] = {
+      {Space::standard, "default", "trilinear functions on the refined nodes"},
+      {Space::cubic, "cubic", "tricubic B-splines where cells are regular"},
+      {Space::published, "published",
+       "tricubic and trilinear elements mixed as in papers/004, which leaves gaps between them: for comparison "
+       "only"},
+  };
+  return table;
+}
+
+std::string_view word(Space space) {
+  for (const SpaceKind& kind : space_table())
+    if (kind.space == space) return kind.name;
+  return "";
+}
+
+Space space_by_name(std::string_view name) {
+  std::string names;
+  for (const SpaceKind& kind : space_table()) {
+    if (kind.name == name) return kind.space;
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw Error(ErrorCode::not_found, fmt::format("'{}' is not a space; there are {}", name, names));
+}
+
 CellCounts count_cells(const Solid& finest) {
   CellCounts counts;
   const auto classes = subdiv::classify_cells(finest);
@@ -271,10 +322,10 @@ Discretization discretize(const subdiv::Refinement& refinement, const Eigen::Mat
   result.cells = count_cells(refinement.solid());
   // Loads and tools act on the quadrilaterals of the finest level; only level 0 has other faces.
   if (refinement.finest() == 0) check_quadrilaterals(refinement.solid());
-  if (options.space == Space::standard)
-    build_standard(result, refinement);
-  else
+  if (options.space == Space::cubic)
     build_cubic(result, refinement, fields, options.split);
+  else
+    build_on_finest(result, refinement, options.space == Space::published);
   for (const ElementBlock& block : result.blocks) {
     if (block.kind == &bspline_hexahedron()) result.elements.cubic += block.element_count();
     if (block.kind == &trilinear_hexahedron()) result.elements.linear += block.element_count();

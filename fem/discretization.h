@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +18,19 @@ namespace argil::fem {
 
 enum class Space {
   standard,  // "default": trilinear elements (pyramids in irregular cells) on d = A p of the finest level
-  cubic      // tricubic elements at the coarsest regular level, the rest split trilinear ones at limit positions
+  cubic,     // tricubic elements at the coarsest regular level, the rest split trilinear ones at limit positions
+  published  // papers/004: both kinds on the vertices of the finest level. Not continuous, for the chart only
 };
+struct SpaceKind {
+  Space space;
+  std::string_view name;     // as in a session
+  std::string_view summary;  // without a full stop
+};
+/// The default first.
+[[nodiscard]] std::span<const SpaceKind> space_table();
+[[nodiscard]] std::string_view word(Space space);
+/// @throws Error (not_found) that lists the names.
+[[nodiscard]] Space space_by_name(std::string_view name);
 
 /// Values at the vertices of the finest level (by vertex id); what a quadrature point sees is interpolated from
 /// them.
@@ -77,7 +89,10 @@ struct Discretization {
 /// element, every other cell gives a pyramid over each of its faces. Cubic space (METHODS §2, §3): a regular cell
 /// over which the fields are trilinear (to 1e-12) becomes one tricubic element at the coarsest such level, at the
 /// finest level any regular cell does; what is left is refined `split` times more and meshed linearly, nodes at
-/// limit positions.
+/// limit positions. Published (papers/004 §3.4.4): cells of the finest level that are regular by the paper's
+/// criterion become tricubic elements that read its vertices as control points, all others are as in the default
+/// space and read them as points; the two kinds do not meet (METHODS §3: patch residual 0.404 σh² at every
+/// resolution).
 /// @throws Error (bad_geometry) naming the cell whose rest Jacobian at a quadrature point is ≤ 0; (unsupported) for
 /// a cell with faces that are not quadrilaterals, which only level 0 has.
 [[nodiscard]] Discretization discretize(const subdiv::Refinement& refinement,

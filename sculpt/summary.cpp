@@ -30,7 +30,7 @@ std::string summary_json(const Session& session, const std::string& name, int th
   json["state_hash"] = fmt::format("{:016x}", document.state_hash());
   json["topology_hash"] = fmt::format("{:016x}", document.solid().topology_hash());
   json["steps"] = session.steps().size();
-  json["space"] = document.state().space == fem::Space::cubic ? "cubic" : "default";
+  json["space"] = fem::word(document.state().space);
   json["levels"] = document.state().level;
   json["rules"] = word(document.state().rules);
   json["model"] = document.state().model.name;

@@ -80,7 +80,7 @@ void set_rules(Session& session, const Arguments& arguments) {
 void set_space(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
-  next.space = arguments.word("space") == "cubic" ? fem::Space::cubic : fem::Space::standard;
+  next.space = fem::space_by_name(arguments.word("space"));
   next.split = static_cast<int>(arguments.integer("split", next.split));
   session.change(std::move(next));
 }
@@ -88,6 +88,12 @@ void set_space(Session& session, const Arguments& arguments) {
 }  // namespace
 
 std::vector<Command> level_commands() {
+  std::vector<std::string> space_names;
+  std::string space_summaries;
+  for (const fem::SpaceKind& kind : fem::space_table()) {
+    space_names.emplace_back(kind.name);
+    space_summaries += fmt::format(" {}: {}.", kind.name, kind.summary);
+  }
   return {
       {.name = "levels",
        .summary = "How often the control solid is refined before it becomes finite elements.",
@@ -115,15 +121,13 @@ std::vector<Command> level_commands() {
        .before = {"new box 2 2 2", "levels 1"},
        .run = set_rules},
       {.name = "space",
-       .summary =
-           "Which functions the solid may move by: trilinear ones on the refined nodes (default), or tricubic "
-           "B-splines where cells are regular.",
+       .summary = "Which functions the solid may move by." + space_summaries,
        .parameters = {{.name = "space",
                        .type = ArgumentType::word,
                        .help = "the space",
                        .positional = true,
                        .required = true,
-                       .choices = {"default", "cubic"}},
+                       .choices = space_names},
                       {.name = "split",
                        .type = ArgumentType::integer,
                        .help = "cubic: how often the remaining cells are split",

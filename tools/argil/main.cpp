@@ -142,7 +142,8 @@ int run(int argc, char** argv) {
   CLI::App* elements_app = app.add_subcommand("elements", "Classes of cells and counts of finite elements");
   elements_app->add_option("mesh", first, mesh_endings)->required();
   elements_app->add_option("--levels", levels, "refinements")->required()->check(CLI::Range(0, 8));
-  elements_app->add_option("--space", space, "default or cubic")->check(CLI::IsMember({"default", "cubic"}));
+  elements_app->add_option("--space", space, "default, cubic or published")
+      ->check(CLI::IsMember({"default", "cubic", "published"}));
   elements_app->add_option("--split", split, "cubic: how often the remaining cells are split")
       ->check(CLI::Range(0, 3));
   elements_app->add_flag("--json", json, "print as JSON");

@@ -146,8 +146,7 @@ int elements(const std::filesystem::path& path, int levels, const std::string& s
   const fem::NodalFields fields{Eigen::VectorXd::Constant(nodes, 1e5), Eigen::VectorXd::Constant(nodes, 0.3),
                                 Eigen::VectorXd::Constant(nodes, 1000), Eigen::VectorXd::Zero(nodes)};
   const fem::Discretization d =
-      fem::discretize(refinement, built.positions, fields,
-                      {.space = space == "cubic" ? fem::Space::cubic : fem::Space::standard, .split = split});
+      fem::discretize(refinement, built.positions, fields, {.space = fem::space_by_name(space), .split = split});
   ordered_json json;
   json["space"] = space;
   json["levels"] = levels;
