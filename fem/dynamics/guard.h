@@ -16,7 +16,7 @@
 // A refused step is taken back, and tried again by a ladder of remedies, each from the last good state: 2, 4 and 8
 // substeps; Newton's method with line search and up to 50 iterations (implicit methods); implicit Euler with both,
 // in 1 and in 8 substeps. If none helps the body stays where it was for this step, at rest; after three such
-// failures without an untroubled step between it is frozen until it is thawed.
+// failures it is frozen until it is thawed. An untroubled step with no energy on the account forgets failures.
 
 #include <array>
 #include <string>
@@ -45,7 +45,7 @@ inline constexpr std::array k_guard_remedies{GuardRemedy::substeps, GuardRemedy:
 /// What the guard carries from step to step: part of a body's state, as its history is.
 struct GuardState {
   double surplus = 0;  // energy made of nothing and not yet paid back [J]
-  int failures = 0;    // failed ladders since the last untroubled step
+  int failures = 0;    // failed ladders that no untroubled step has made up for
   bool frozen = false;
   GuardFinding cause = GuardFinding::none;  // of the last failure
   bool operator==(const GuardState&) const = default;

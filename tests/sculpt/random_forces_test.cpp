@@ -56,7 +56,8 @@ class RandomForces {
              fmt::format("set poisson_ratio {:.4f}", poisson), fmt::format("set density {:.4g}", density)};
     if (pick(2))
       lines.push_back(fmt::format("paint young_modulus scale {:.4g} where x < {:.3f}",
-                                  gentle ? logarithmic(1, 3) : logarithmic(1, 1e4), number(0.05, 0.2)));
+                                  gentle ? logarithmic(1, 3) : logarithmic(1, std::min(1e4, 9e12 / young)),
+                                  number(0.05, 0.2)));
     const auto models = fem::model_table();
     const auto methods = fem::method_table();
     result.model = gentle ? "corotational" : std::string(models[pick(models.size())].name);

@@ -92,8 +92,10 @@ TEST(Guard, KeepsExplicitMethodsBoundedAtTenTimesTheirLimit) {
     EXPECT_GT(helped, 10);
     EXPECT_FALSE(guard.frozen);
     EXPECT_NEAR(solid.state.time, 2, 1e-9);
-    // The tip hangs ρ g A L⁴/(8EI) + shear = 0.4 mm down, and swings by twice that.
-    EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 5e-3);
+    // The tip hangs ρ g A L⁴/(8EI) = 12 mm down and a little for shear, and swings to twice that; forward Euler may
+    // hold twice the energy.
+    EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 0.035);
+    EXPECT_GT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 1e-3);
   }
 }
 
