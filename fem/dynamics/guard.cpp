@@ -81,7 +81,7 @@ class Ladder {
     const Promises promises = integrator.system().model->promises();
     has_energy_ = promises.has_energy;
     counts_inverted_ = promises.inversion_is_error && !integrator.system().blocks.empty();
-    const double size = k_guard_negligible * extent(*integrator.system().rest_nodes) / time_step;
+    const double size = k_guard_negligible * extent(*integrator.system().rest_nodes);
     double mass = 0;
     for (Eigen::Index c = 0; c < integrator.system().mass->outerSize(); ++c)
       for (Eigen::SparseMatrix<double>::InnerIterator it(*integrator.system().mass, c); it; ++it)
