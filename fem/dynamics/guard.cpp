@@ -81,7 +81,7 @@ class Ladder {
     const Promises promises = integrator.system().model->promises();
     has_energy_ = promises.has_energy;
     counts_inverted_ = promises.inversion_is_error && !integrator.system().blocks.empty();
-    const double size = k_guard_negligible * extent(begin.positions) / time_step;
+    const double size = k_guard_negligible * extent(*integrator.system().rest_nodes);
     double mass = 0;
     for (Eigen::Index c = 0; c < integrator.system().mass->outerSize(); ++c)
       for (Eigen::SparseMatrix<double>::InnerIterator it(*integrator.system().mass, c); it; ++it)
@@ -132,7 +132,7 @@ class Ladder {
     const double gain = next.energy() - ledger.energy() - work(loads_, from, to.positions);
     next.surplus = std::max(0.0, ledger.surplus + gain);
     const double present = std::abs(next.energy());
-    const double rounding = k_guard_rounding * (present + std::abs(ledger.energy())) + negligible_;
+    const double rounding = k_guard_rounding * (present + std::abs(ledger.energy()));
     if (next.surplus <= rounding) next.surplus = 0;
     if (next.surplus > k_guard_share * present + negligible_ && gain > rounding) return GuardFinding::energy;
     if (counts_inverted_ && next.inverted > ledger.inverted) return GuardFinding::inversion;
@@ -260,7 +260,7 @@ GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState
   };
 
   if (attempt(options, 1, GuardRemedy::none)) {
-    guard.failures = 0;
+    if (guard.surplus == 0) guard.failures = 0;
     return report;
   }
   for (const int parts : k_substep_rungs)
@@ -278,7 +278,8 @@ GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState
 
   guard.cause = report.finding;
   guard.frozen = ++guard.failures >= k_guard_failures;
-  guard.surplus = 0;
+  // What stands still has paid back its motion; what is stored stays on the account.
+  guard.surplus = std::max(0.0, guard.surplus - kinetic_energy(integrator.system(), begin.velocities));
   state = begin;
   stand_still(state, time_step);
   report.remedy = guard.frozen ? GuardRemedy::frozen : GuardRemedy::restored;

@@ -10,13 +10,13 @@
 // of the energy that is there and still grows (for models without an energy: the half-product of force and
 // displacement). So the energy of a body never exceeds twice what was put in. An explicit method below its limit
 // swings by less than that unless its highest frequency carries the motion; implicit methods lose energy, and what
-// Newton's tolerance adds is some 1e-4 of it. Motion of less than 1e-4 of the body's size a step is let pass, since
-// nothing is lost by it.
+// Newton's tolerance adds is some 1e-4 of it. Motion of less than a hundredth of the body's size a second is let
+// pass, since nothing is lost by it.
 //
 // A refused step is taken back, and tried again by a ladder of remedies, each from the last good state: 2, 4 and 8
 // substeps; Newton's method with line search and up to 50 iterations (implicit methods); implicit Euler with both,
 // in 1 and in 8 substeps. If none helps the body stays where it was for this step, at rest; after three such
-// failures without an untroubled step between it is frozen until it is thawed.
+// failures it is frozen until it is thawed. An untroubled step with no energy on the account forgets failures.
 
 #include <array>
 #include <string>
@@ -28,7 +28,7 @@ namespace argil::fem {
 
 inline constexpr double k_guard_share = 0.5;        // of the energy present, that may have come from nowhere
 inline constexpr double k_guard_rounding = 1e-9;    // of the energy present: no growth
-inline constexpr double k_guard_negligible = 1e-4;  // of the body's size a step: motion that harms nothing
+inline constexpr double k_guard_negligible = 0.01;  // of the body's size a second: motion that harms nothing
 inline constexpr int k_guard_failures = 3;          // failed ladders that freeze a body
 inline constexpr int k_guard_newton_cap = 50;
 
@@ -45,7 +45,7 @@ inline constexpr std::array k_guard_remedies{GuardRemedy::substeps, GuardRemedy:
 /// What the guard carries from step to step: part of a body's state, as its history is.
 struct GuardState {
   double surplus = 0;  // energy made of nothing and not yet paid back [J]
-  int failures = 0;    // failed ladders since the last untroubled step
+  int failures = 0;    // failed ladders that no untroubled step has made up for
   bool frozen = false;
   GuardFinding cause = GuardFinding::none;  // of the last failure
   bool operator==(const GuardState&) const = default;

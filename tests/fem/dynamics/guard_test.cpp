@@ -92,8 +92,10 @@ TEST(Guard, KeepsExplicitMethodsBoundedAtTenTimesTheirLimit) {
     EXPECT_GT(helped, 10);
     EXPECT_FALSE(guard.frozen);
     EXPECT_NEAR(solid.state.time, 2, 1e-9);
-    // The tip hangs ρ g A L⁴/(8EI) + shear = 0.4 mm down, and swings by twice that.
-    EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 5e-3);
+    // The tip hangs ρ g A L⁴/(8EI) = 12 mm down and a little for shear, and swings to twice that; forward Euler may
+    // hold twice the energy.
+    EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 0.035);
+    EXPECT_GT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 1e-3);
   }
 }
 
@@ -195,21 +197,26 @@ TEST(Guard, TakesBackInversionWhereItIsAnError) {
   }
 }
 
-TEST(Guard, SeesForcesThatHaveNoEnergy) {
-  // Forces that push away from rest gain energy at any step.
+TEST(Guard, BoundsForcesThatAreNotThoseOfTheirEnergy) {
+  // Forces that push away from rest gain energy at any step, by any method.
   SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
   Faulty model(*solid.model);
   model.sign = -1;
   solid.system.model = &model;
-  solid.state.positions.row(0) *= 1.01;
+  solid.state.positions.row(0) *= 1.2;
+  const double begin = total(solid);
   Integrator integrator(solid.system);
   StepOptions options;
   options.method = Method::velocity_verlet;
   GuardState guard;
-  for (int i = 0; i < 500 && !guard.frozen; ++i)
-    static_cast<void>(guarded_step(integrator, {}, solid.state, guard, 2e-3, options));
-  EXPECT_TRUE(guard.frozen);
-  EXPECT_LT((solid.state.positions - solid.rest).cwiseAbs().maxCoeff(), 0.1);
+  double most = 0;
+  int troubled = 0;
+  for (int i = 0; i < 500; ++i) {
+    troubled += guarded_step(integrator, {}, solid.state, guard, 2e-3, options).finding == GuardFinding::energy;
+    most = std::max(most, total(solid));
+  }
+  EXPECT_GT(troubled, 1);
+  EXPECT_LE(most, 2.05 * begin);
 }
 
 TEST(Guard, PassesOnWhatIsWrongWithTheArguments) {
