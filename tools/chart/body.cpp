@@ -6,6 +6,10 @@
 
 #include "subdiv/primitives.h"
 #include "subdiv/transaction.h"
+#if __has_include("fem/discretization/quadratic_tetrahedra.h")
+#include "fem/discretization/quadratic_tetrahedra.h"
+#define ARGIL_CHART_TETRAHEDRA
+#endif
 
 namespace argil::chart {
 
@@ -58,6 +62,16 @@ std::vector<SpaceRow> spaces() {
   if (const auto published = published_space<fem::Space>())
     rows.push_back(
         row_of("published", "cubic and linear elements mixed as published, not continuous", 1, *published));
+#ifdef ARGIL_CHART_TETRAHEDRA
+  rows.push_back({"tetrahedra", "ten-node tetrahedra, the nodes their own unknowns: a reference from outside", 0,
+                  [](const subdiv::Refinement& refinement, const Eigen::Matrix3Xd& control_points,
+                     const fem::NodalFields& fields) {
+                    fem::Discretization made =
+                        fem::quadratic_tetrahedra(refinement.solid(), control_points, fields);
+                    Eigen::Matrix3Xd rest = made.rest_nodes;
+                    return Discretized{std::move(made), std::move(rest)};
+                  }});
+#endif
   return rows;
 }
 

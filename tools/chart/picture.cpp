@@ -275,9 +275,9 @@ class Painter {
       before = what;
       const double y = found->box.y + 11.5;
       if (found->leader) {
-        const double x = std::clamp(at.x, found->box.x, found->box.x + found->box.width);
-        const double edge = found->box.y > at.y ? found->box.y : found->box.y + found->box.height;
-        svg += line(at.x, at.y, x, std::abs(found->box.y + 7.5 - at.y) < 8 ? y - 4 : edge, "leader");
+        const Box& box = found->box;
+        svg += line(at.x, at.y, std::clamp(at.x, box.x, box.x + box.width),
+                    std::clamp(at.y, box.y + 2, box.y + box.height - 2), "leader");
       }
       svg += text(found->box.x, y, what, "halo");
     }

@@ -77,11 +77,12 @@ Lines rewritten(const SessionFile& session, const SessionRun* run) {
   return lines;
 }
 
-std::string label(const SessionRun& run) {
+std::string label(const SessionRun& run, bool moves) {
   std::string text = run.model;
   if (run.formulation != "plain") text += " " + run.formulation;
-  text += ", " + run.integrator + ", " + run.space + " " + std::to_string(run.level);
-  return run.substeps > 1 ? text + fmt::format(", {} substeps", run.substeps) : text;
+  if (moves) text += ", " + run.integrator;
+  text += ", " + run.space + " " + std::to_string(run.level);
+  return moves && run.substeps > 1 ? text + fmt::format(", {} substeps", run.substeps) : text;
 }
 
 struct CommonPoints {
@@ -270,7 +271,7 @@ Panel chart_session(const SessionFile& session, const Choice& choice, const Sett
   panel.name = "session";
   panel.title = session.path.filename().string();
   panel.quantity = "surface at the end: RMS distance over RMS displacement";
-  panel.source = "its own refinement: " + label(finer);
+  panel.source = "its own refinement: " + label(finer, own.steps > 0);
   panel.in_motion = own.simulated > 0;
   panel.of_session = true;
   for (const SessionRun& run : runs) {
@@ -280,10 +281,10 @@ Panel chart_session(const SessionFile& session, const Choice& choice, const Sett
       continue;
     }
     if (!reference) {
-      if (tell) tell("the reference, " + label(finer), nullptr);
+      if (tell) tell("the reference, " + label(finer, own.steps > 0), nullptr);
       reference = std::make_unique<Replayed>(replay(session, &finer, common, patient, scratch));
     }
-    if (tell) tell(label(run), nullptr);
+    if (tell) tell(label(run, own.steps > 0), nullptr);
     Row row;
     row.key = key;
     row.problem = panel.title;
@@ -308,7 +309,7 @@ Panel chart_session(const SessionFile& session, const Choice& choice, const Sett
     }
     table.add(row);
     panel.rows.push_back(row);
-    if (tell) tell(label(run), &row);
+    if (tell) tell(label(run, own.steps > 0), &row);
   }
   return panel;
 }
