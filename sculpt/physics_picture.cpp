@@ -167,7 +167,11 @@ Scene corner_scene(const Document& document, std::uint32_t vertex) {
   scene.lines.push_back({LineLook::rest_side, {{at, a_turned}, {at, b_turned}}});
   scene.lines.push_back({LineLook::overlay, {{a, a_turned}, {b, b_turned}}});
   const auto degrees = [](double radians) { return radians * 180 / M_PI; };
-  scene.labels = {{at, fmt::format("θ = {:.1f}°, θ₀ = {:.1f}°", degrees(corner.angle), degrees(corner.rest_angle))},
+  // The angle stands between the sides, where it is.
+  const Eigen::Vector3d between =
+      corner.at + 0.3 * (corner.a_unsheared - corner.at) + 0.3 * (corner.b_unsheared - corner.at);
+  scene.labels = {{single(between),
+                   fmt::format("θ = {:.1f}°, at rest {:.1f}°", degrees(corner.angle), degrees(corner.rest_angle))},
                   {a, "a"},
                   {b, "b"},
                   {a_turned, "a′"},

@@ -30,7 +30,8 @@ class StepTrace {
   /// Begins the file anew with the header. @throws Error (bad_input) if it cannot be written.
   void open(const std::filesystem::path& path);
   bool is_open() const { return file_.is_open(); }
-  void write(const std::string& row) { file_ << row << '\n'; }
+  /// Flushed, so that a killed program has written all its steps.
+  void write(const std::string& row) { file_ << row << std::endl; }
 
  private:
   std::ofstream file_;

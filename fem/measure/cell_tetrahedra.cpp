@@ -35,7 +35,7 @@ CellTetrahedra cell_tetrahedra(const Solid& solid, const CellData<std::uint8_t>&
       std::uint32_t& of_face = middle_from_face[face_of(use).index()];
       if (of_face == k_none) of_face = add_middle(cut, loop);
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        cut.corners.push_back({loop[i].value, loop[(i + 1) % loop.size()].value, of_face, middle});
+        cut.corners.push_back({loop[(i + 1) % loop.size()].value, loop[i].value, of_face, middle});
         cut.cells.push_back(cell.value);
       }
     }

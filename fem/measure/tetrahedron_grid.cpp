@@ -95,6 +95,7 @@ std::optional<TetrahedronPoint> TetrahedronGrid::locate(const Eigen::Vector3d& p
       best = TetrahedronPoint{inside_[i], weights};
     }
   };
+  if (!point.allFinite()) return best;
   const auto here = box_of(point);
   look(index(here[0], here[1], here[2]));
   if (least == 0 || slack <= 0) return best;

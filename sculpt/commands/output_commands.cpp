@@ -144,6 +144,10 @@ void render(Session& session, const Arguments& arguments) {
     throw Error(ErrorCode::bad_input, "a reference is for `field error`; to see its edges, write `overlay FILE`");
   request.reference = reference_of(session, arguments);
   request.volume = arguments.has("volume");
+  if (request.volume && request.field.empty())
+    throw Error(ErrorCode::bad_input, "a volume is of a field; add `field strain`");
+  if (request.field == "error" && !request.reference)
+    throw Error(ErrorCode::bad_input, "an error is against another solution; add `reference FILE`");
   if (arguments.has("opacity") && !request.volume)
     throw Error(ErrorCode::bad_input, "opacity is that of a volume; add `volume field strain`");
   request.opacity = arguments.number("opacity", 1);

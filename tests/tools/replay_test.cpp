@@ -101,6 +101,17 @@ TEST_F(Replay, AnyNumberOfThreadsGivesTheSameBitsAtEveryStep) {
   }
 }
 
+TEST_F(Replay, TracesAStepARowAndRefusesToOverwriteTheSession) {
+  (void)summary("small.argil", "out", {"--trace", "steps.csv"});
+  const auto lines = lines_of(read_bytes(folder_ / "steps.csv"));
+  ASSERT_EQ(lines.size(), 1U + 9);  // as many steps as the summary counts
+  EXPECT_TRUE(lines[0].starts_with("step,line,time_s,kinetic_J,elastic_J,"));
+  EXPECT_TRUE(lines[9].starts_with("9,"));
+  const Finished refused = argil({"replay", "small.argil", "--trace", "small.argil"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--trace"));
+}
+
 TEST_F(Replay, UndoOfEverythingAndRedoLeavesTheStateAsItWas) {
   std::string again = small_session();
   again += "undo all\nredo all\nundo 2\nredo 2\n";

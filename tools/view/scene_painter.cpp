@@ -28,11 +28,11 @@ LineStyle style_of(sculpt::LineLook look, const Theme& theme) {
     case sculpt::LineLook::overlay:
       break;
     case sculpt::LineLook::axis_u:
-      return {theme.axis_u, 0.9F, 1};
+      return {theme.axis_u, 1.2F, 1};
     case sculpt::LineLook::axis_v:
-      return {theme.axis_v, 0.9F, 1};
+      return {theme.axis_v, 1.2F, 1};
     case sculpt::LineLook::axis_w:
-      return {theme.axis_w, 0.9F, 1};
+      return {theme.axis_w, 1.2F, 1};
     case sculpt::LineLook::side:
       return {theme.side, 1.6F, 1};
     case sculpt::LineLook::rest_side:
