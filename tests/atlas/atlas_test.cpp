@@ -40,7 +40,7 @@ class SymplecticEuler final : public Stepper {
 
  private:
   fem::System system_;
-  fem::MassFactor mass_;
+  fem::InverseMass mass_;
   double gain_;
 };
 
