@@ -122,6 +122,9 @@ struct Body::Parts {
         const std::string& name = line.tokens[0].text;
         if (name != "save" && name != "render" && name != "expect" && name != "measure") session->run_line(line);
       }
+      if (session->document().empty())
+        throw Error(ErrorCode::bad_input, "the session ends without a solid; it wants `new` or `open`",
+                    scene.session_file.string());
       if (scene.young_modulus != 1)
         session->run_line(fmt::format("paint young_modulus scale {}", scene.young_modulus));
     } else {
