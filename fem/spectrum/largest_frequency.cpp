@@ -25,7 +25,7 @@ double dot(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 LargestFrequency largest_frequency(const System& system, std::span<const AnchorSpring> springs,
                                    const Eigen::Matrix3Xd& positions, double tolerance) {
   const auto free = moving_control_points(system);
-  const MassFactor mass(*system.mass, free);
+  const InverseMass mass(*system.mass, free);
   const auto size = static_cast<Eigen::Index>(system.rows->column_count);
   const auto tangent = system.model->tangent(nodes(system, positions), Projection::none);
   Eigen::Matrix3Xd node_direction, node_product;

@@ -13,9 +13,9 @@ struct LargestFrequency {
   int iterations = 0;
 };
 
-/// Linearised at `positions` (3 x control points). @throws Error (bad_geometry) as MassFactor, (unsupported) if the
-/// tangent is not symmetric, (not_converged) after 1000 iterations. Cost: one product with K and one solve with the
-/// mass an iteration, some 20 to 100 of them.
+/// Linearised at `positions` (3 x control points). @throws Error (bad_geometry) as InverseMass, (unsupported) if
+/// the tangent is not symmetric, (not_converged) after 1000 iterations. Cost: one product with K and one solve with
+/// the mass an iteration, some 20 to 100 of them.
 [[nodiscard]] LargestFrequency largest_frequency(const System& system, std::span<const AnchorSpring> springs,
                                                  const Eigen::Matrix3Xd& positions, double tolerance = 1e-6);
 

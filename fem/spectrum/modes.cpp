@@ -188,7 +188,7 @@ Modes lowest_modes(const Pencil& pencil, std::size_t control_point_count, int co
     one_axis.setFromTriplets(entries.begin(), entries.end());
     std::vector<std::uint32_t> all(static_cast<std::size_t>(size / 3));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-    const MassFactor check(one_axis, all);
+    const InverseMass check(one_axis, all);
   }
   const bool dense = size <= std::max<Index>(k_dense, 4 * wanted);
   const Ritz ritz = dense ? dense_modes(pencil, wanted) : iterated_modes(pencil, wanted, mean_square, tolerance);

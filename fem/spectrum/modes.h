@@ -19,7 +19,7 @@ struct Modes {
 };
 
 /// `count` lowest modes, fewer if there are fewer unknowns. @throws Error (bad_input) for a count below 1;
-/// (bad_geometry) as MassFactor; (not_converged) if 300 restarts do not reach `tolerance`, relative in the vectors
+/// (bad_geometry) as InverseMass; (not_converged) if 300 restarts do not reach `tolerance`, relative in the vectors
 /// (the squares are then good to its square).
 /// Cost: one sparse Cholesky factor, some solves a mode, memory 16 (3 count + 48) bytes an unknown beside the
 /// factor.

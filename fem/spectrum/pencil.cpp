@@ -127,13 +127,13 @@ Pencil pencil(const System& system, std::span<const AnchorSpring> springs, const
   return result;
 }
 
-struct MassFactor::Factor {
+struct InverseMass::Factor {
   std::vector<std::uint32_t> control_points;
   std::size_t count = 0;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky;
 };
 
-MassFactor::MassFactor(const Eigen::SparseMatrix<double>& mass, std::vector<std::uint32_t> control_points)
+InverseMass::InverseMass(const Eigen::SparseMatrix<double>& mass, std::vector<std::uint32_t> control_points)
     : factor_(std::make_unique<Factor>()) {
   factor_->count = static_cast<std::size_t>(mass.cols());
   const auto number = numbers(control_points, factor_->count);
@@ -152,9 +152,9 @@ MassFactor::MassFactor(const Eigen::SparseMatrix<double>& mass, std::vector<std:
         "some motion of the control points moves no mass, so its frequency is not finite; a lone hexahedron "
         "has one: split the control solid once");
 }
-MassFactor::~MassFactor() = default;
+InverseMass::~InverseMass() = default;
 
-void MassFactor::solve(const Eigen::Matrix3Xd& forces, Eigen::Matrix3Xd& result) const {
+void InverseMass::solve(const Eigen::Matrix3Xd& forces, Eigen::Matrix3Xd& result) const {
   Eigen::MatrixXd right(static_cast<Eigen::Index>(factor_->control_points.size()), 3);
   for (std::size_t i = 0; i < factor_->control_points.size(); ++i)
     right.row(static_cast<Eigen::Index>(i)) =

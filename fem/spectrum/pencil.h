@@ -29,13 +29,13 @@ struct Pencil {
 [[nodiscard]] double pencil_bytes(const System& system);
 
 /// M̃ among the free control points as a sparse Cholesky factor.
-class MassFactor {
+class InverseMass {
  public:
   /// @throws Error (bad_geometry) if a motion of the free control points carries no mass.
-  MassFactor(const Eigen::SparseMatrix<double>& mass, std::vector<std::uint32_t> control_points);
-  ~MassFactor();
-  MassFactor(const MassFactor&) = delete;
-  MassFactor& operator=(const MassFactor&) = delete;
+  InverseMass(const Eigen::SparseMatrix<double>& mass, std::vector<std::uint32_t> control_points);
+  ~InverseMass();
+  InverseMass(const InverseMass&) = delete;
+  InverseMass& operator=(const InverseMass&) = delete;
   /// result = M̃⁻¹ forces, 3 x all control points; zero where they are not free.
   void solve(const Eigen::Matrix3Xd& forces, Eigen::Matrix3Xd& result) const;
 

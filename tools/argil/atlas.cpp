@@ -100,10 +100,10 @@ int stability_atlas(const AtlasArguments& arguments) {
                                     static_cast<std::size_t>(options.threads));
   if (arguments.quick) {
     options.grid = {.coarse = 6, .depth = 3};
-    options.lines = 3;
+    options.lines = 4;
     options.line_depth = 0;
     options.criteria.most_steps = 1500;
-    options.criteria.reference_steps = 300;
+    options.criteria.reference_steps = 150;
   }
   ProbeStore store(arguments.out / "probes.csv");
   if (store.taken_over() > 0 && !arguments.quiet)

@@ -70,6 +70,24 @@ std::string value_text(const Axis& axis, double share) {
   return fmt::format("{:.3g}{}{}", axis.at(share), info.unit.empty() ? "" : " ", info.unit);
 }
 
+/// Gives both lines the same outcomes in the same order, by empty stretches at a rim; false if that is not enough.
+bool align(std::vector<Stretch>& a, std::vector<Stretch>& b, double last) {
+  std::vector<Stretch>&shorter = a.size() < b.size() ? a : b, &longer = a.size() < b.size() ? b : a;
+  const std::size_t missing = longer.size() - shorter.size();
+  const auto fits = [&](std::size_t offset) {
+    for (std::size_t i = 0; i < shorter.size(); ++i)
+      if (shorter[i].outcome != longer[i + offset].outcome) return false;
+    return true;
+  };
+  if (fits(0)) {
+    for (std::size_t i = shorter.size(); i < longer.size(); ++i) shorter.push_back({last, last, longer[i].outcome});
+    return true;
+  }
+  if (!fits(missing)) return false;
+  for (std::size_t i = missing; i-- > 0;) shorter.insert(shorter.begin(), Stretch{0, 0, longer[i].outcome});
+  return true;
+}
+
 class Picture {
  public:
   Picture(const Sweep& sweep, const AtlasOptions& options, const std::vector<Panel>& panels)
@@ -167,11 +185,17 @@ class Picture {
         "<text x=\"{:.1f}\" y=\"{:.1f}\">{}{}</text>\n",
         left_, top_ - 22, xml_text(panel.integrator), left_, top_ - 7, xml_text(panel.model),
         panel.is_implicit ? "" : " (explicit)");
+    add("<g shape-rendering=\"crispEdges\">\n");
     for (std::size_t i = 0; i < panel.lines.size(); ++i) {
-      const double begin = i == 0 ? 0 : 0.5 * (panel.lines[i - 1].swept + panel.lines[i].swept);
-      const double end = i + 1 == panel.lines.size() ? 1 : 0.5 * (panel.lines[i].swept + panel.lines[i + 1].swept);
-      for (const Stretch& stretch : panel.lines[i].stretches) band(panel, panel.lines[i], stretch, begin, end);
+      const MapLine& line = panel.lines[i];
+      // From halfway to the line before to halfway to the line after.
+      if (i > 0) half_band(panel, line, panel.lines[i - 1]);
+      if (i + 1 < panel.lines.size()) half_band(panel, line, panel.lines[i + 1]);
+      if (panel.lines.size() == 1) {
+        for (const Stretch& stretch : line.stretches) quad(panel, line, stretch, stretch, 0, 1);
+      }
     }
+    add("</g>\n");
     limit(panel);
     add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#333\"/>\n", left_, top_,
         k_panel_width, k_panel_height);
@@ -179,13 +203,34 @@ class Picture {
     add("</g>\n");
   }
 
-  void band(const Panel& panel, const MapLine& line, const Stretch& stretch, double begin, double end) {
-    const double low = stretch.begin / options_.grid.last(), high = stretch.end / options_.grid.last();
-    const bool flat = sweep_.searched_is_horizontal;
-    const double x0 = x_of(flat ? low : begin), x1 = x_of(flat ? high : end);
-    const double y0 = y_of(flat ? end : high), y1 = y_of(flat ? begin : low);
-    add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"><title>{}</title></rect>\n",
-        x0, y0, x1 - x0, y1 - y0, look(stretch.outcome).fill, xml_text(tooltip(panel, line, stretch)));
+  /// What is nearer to `line` than to its neighbour; where both have the same outcomes in the same order, but for
+  /// some that begin or end at the rim, boundaries run straight from one to the other.
+  void half_band(const Panel& panel, const MapLine& line, const MapLine& neighbour) {
+    const double middle = 0.5 * (line.swept + neighbour.swept);
+    std::vector<Stretch> here = line.stretches, there = neighbour.stretches;
+    const bool alike = align(here, there, options_.grid.last());
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      Stretch half = here[i];
+      if (alike) {
+        half.begin = 0.5 * (half.begin + there[i].begin);
+        half.end = 0.5 * (half.end + there[i].end);
+      }
+      quad(panel, line, here[i], half, line.swept, middle);
+    }
+  }
+
+  /// A stretch of a line at `swept`, and what it becomes at `other`.
+  void quad(const Panel& panel, const MapLine& line, const Stretch& stretch, const Stretch& there, double swept,
+            double other) {
+    const double last = options_.grid.last();
+    const auto corner = [&](double searched, double across) {
+      const bool flat = sweep_.searched_is_horizontal;
+      return fmt::format("{:.2f},{:.2f}", x_of(flat ? searched / last : across),
+                         y_of(flat ? across : searched / last));
+    };
+    add("<polygon points=\"{} {} {} {}\" fill=\"{}\"><title>{}</title></polygon>\n", corner(stretch.begin, swept),
+        corner(stretch.end, swept), corner(there.end, other), corner(there.begin, other),
+        look(stretch.outcome).fill, xml_text(tooltip(panel, line, stretch)));
   }
 
   std::string tooltip(const Panel& panel, const MapLine& line, const Stretch& stretch) const {

@@ -72,7 +72,7 @@ std::string statement(const Sweep& sweep, const LineGrid& grid, const Panel& pan
     say("Nowhere diverged.");
   else
     say(fmt::format(
-        "Diverges from {} {} on{}{}.", name, diverges.words(info.unit),
+        "Diverges from {} {} upwards{}{}.", name, diverges.words(info.unit),
         never_diverged > 0 ? fmt::format(" on {} of {} lines", diverges.count, lines) : std::string(),
         relative.count > 0 ? fmt::format(", which is {} of 2/ω_max", relative.words("")) : std::string()));
   if (accurate.count > 0) say(fmt::format("Accurate up to {} {}.", name, accurate.words(info.unit)));
@@ -103,7 +103,7 @@ std::string page_html(const std::vector<SweepResult>& results, const AtlasOption
       "largest "
       "displacement. Runs take at least {} steps. The guard that a session has is off. Every probe is a row of "
       "<a href=\"probes.csv\">probes.csv</a>.</p>\n",
-      1.0 / options.grid.last(), options.criteria.energy_factor, options.criteria.reference_steps,
+      1.0 / options.grid.last(), options.criteria.energy_factor, 2 * options.criteria.reference_steps,
       100 * options.criteria.error, options.criteria.least_steps);
   html += "<ul>\n";
   for (const SweepResult& result : results)

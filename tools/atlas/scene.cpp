@@ -26,6 +26,13 @@ constexpr double k_inversion_noise = 0.01;  // of a cell
 constexpr double k_disturbance = 1e-4;
 constexpr double k_spin_duration = 0.5;  // [s]
 
+constexpr int k_modes = 30;
+
+struct Yielding {
+  double square = 0;  // [1/s²]
+  double energy = 0;  // [J]
+};
+
 /// The session commands that make one of the atlas's own bodies.
 std::vector<std::string> body_lines(const Scene& scene) {
   const double height = k_length / scene.aspect;
@@ -115,6 +122,9 @@ struct Body::Parts {
         const std::string& name = line.tokens[0].text;
         if (name != "save" && name != "render" && name != "expect" && name != "measure") session->run_line(line);
       }
+      if (session->document().empty())
+        throw Error(ErrorCode::bad_input, "the session ends without a solid; it wants `new` or `open`",
+                    scene.session_file.string());
       if (scene.young_modulus != 1)
         session->run_line(fmt::format("paint young_modulus scale {}", scene.young_modulus));
     } else {
@@ -156,6 +166,31 @@ struct Body::Parts {
       }
   }
 
+  /// What the start and the loads excite, by the lowest modes at rest: ω² of the motion as the Rayleigh quotient of
+  /// the displacement that is let go or that the loads would hold, and the energy of the latter.
+  Yielding yielding(const fem::Modes& modes) const {
+    const Eigen::Matrix3Xd moved = start.positions - session->document().rest();
+    const Eigen::Matrix3Xd momentum = moved * *system.mass, drift = start.velocities * *system.mass;
+    Yielding result;
+    double lowest = 0, above = 0, below = 0;
+    for (std::size_t m = 0; m < modes.squares.size(); ++m) {
+      const double square = modes.squares[m];
+      if (square <= modes.rounding) continue;
+      if (lowest == 0) lowest = square;
+      double share = momentum.cwiseProduct(modes.shapes[m]).sum();
+      if (loads.forces.cols() > 0) {
+        const double push = loads.forces.cwiseProduct(modes.shapes[m]).sum();
+        share -= push / square;  // from where it is to where it would rest
+        result.energy += push * push / (2 * square);
+      }
+      const double speed = drift.cwiseProduct(modes.shapes[m]).sum();
+      above += square * share * share + speed * speed;
+      below += share * share + speed * speed / square;
+    }
+    result.square = below > 0 ? above / below : lowest;
+    return result;
+  }
+
   /// Random velocities with a small share of the energy that is about.
   void disturb(double energy) {
     Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Zero(3, start.positions.cols());
@@ -176,21 +211,12 @@ Body::Body(const Scene& scene, const fem::ModelChoice& model) : parts_(std::make
   parts.set_in_motion(scene);
 
   const fem::Pencil pencil = fem::pencil(parts.system, parts.loads.springs, document.rest());
-  const fem::Modes modes = fem::lowest_modes(pencil, parts.system.rows->column_count, 12);
-  double lowest = 0, yielding = 0;  // [1/s²]; energy that the loads store at equilibrium, by the lowest modes
-  for (std::size_t m = 0; m < modes.squares.size(); ++m) {
-    if (modes.squares[m] <= modes.rounding) continue;
-    if (lowest == 0) lowest = modes.squares[m];
-    if (parts.loads.forces.cols() > 0) {
-      const double push = parts.loads.forces.cwiseProduct(modes.shapes[m]).sum();
-      yielding += push * push / (2 * modes.squares[m]);
-    }
-  }
-  if (lowest == 0)
+  const fem::Modes modes = fem::lowest_modes(pencil, parts.system.rows->column_count, k_modes);
+  const Yielding yielding = parts.yielding(modes);
+  if (yielding.square == 0)
     throw Error(ErrorCode::unsupported,
-                "the model has no frequency above zero at rest, so that no time step is long "
-                "or short for it");
-  parts.duration = scene.motion == Motion::spin ? k_spin_duration : 2 * EIGEN_PI / std::sqrt(lowest);
+                "the model has no frequency above zero at rest, so that no time step is long or short for it");
+  parts.duration = scene.motion == Motion::spin ? k_spin_duration : 2 * EIGEN_PI / std::sqrt(yielding.square);
   try {
     parts.largest_frequency = fem::largest_frequency(parts.system, parts.loads.springs, document.rest()).value;
   } catch (const Error&) {  // a tangent that is not symmetric: no limit is known
@@ -204,7 +230,7 @@ Body::Body(const Scene& scene, const fem::ModelChoice& model) : parts_(std::make
     parts.system.model->tangent(*parts.system.rest_nodes, fem::Projection::none)->stiffness_product(moved, product);
     parts.start_energy = kinetic + 0.5 * std::abs(moved.cwiseProduct(product).sum());
   }
-  if (scene.motion != Motion::invert) parts.disturb(std::max(parts.start_energy, yielding));
+  if (scene.motion != Motion::invert) parts.disturb(std::max(parts.start_energy, yielding.energy));
 }
 Body::~Body() = default;
 

@@ -66,7 +66,8 @@ class Body {
   const fem::Loads& loads() const;
   const fem::BodyState& start() const;
   const Eigen::Matrix3Xd& rest() const;  // control points
-  /// How long errors are measured: a period of the lowest frequency at rest [s], with `spin` half a second.
+  /// How long errors are measured: a period of the motion that the start and the loads excite [s], by the modes at
+  /// rest; with `spin` half a second.
   double duration() const;
   /// ω_max of the model's pencil at rest [rad/s]; 0 where the model has none.
   double largest_frequency() const;

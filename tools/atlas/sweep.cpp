@@ -20,7 +20,7 @@ double Axis::share_of(double number) const {
 }
 
 std::vector<Sweep> sweep_table() {
-  const Axis steps{&Scene::time_step, 1e-4, 1, true};
+  const Axis steps{&Scene::time_step, 1e-5, 1, true};
   std::vector<Sweep> table;
   table.push_back({.name = "time_step",
                    .title = "Time step",
