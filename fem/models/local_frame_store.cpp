@@ -17,21 +17,24 @@ ARGIL_LANES_INLINE Lanes load_four(const double* from) {
   return x;
 }
 
-/// Three columns at a time, so that the result is loaded and stored once for three.
+/// result += the products of `k_columns` columns, so that the result is loaded and stored once for all of them.
+template <std::size_t k_columns>
+ARGIL_LANES_INLINE void add_columns(const double* columns, std::size_t size, const double* d, double* result) {
+  std::size_t i = 0;
+  for (; i + 4 <= size; i += 4) {
+    Lanes sum = load_four(result + i);
+    for (std::size_t c = 0; c < k_columns; ++c) sum += d[c] * load_four(columns + c * size + i);
+    std::memcpy(result + i, &sum, sizeof sum);
+  }
+  for (; i < size; ++i)
+    for (std::size_t c = 0; c < k_columns; ++c) result[i] += d[c] * columns[c * size + i];
+}
+
 ARGIL_LANES_INLINE void run_product(const double* matrix, std::size_t size, const double* d, double* result) {
   for (std::size_t i = 0; i < size; ++i) result[i] = 0;
-  for (std::size_t first = 0; first < size; first += 3) {
-    const double* c0 = matrix + first * size;
-    const double *c1 = c0 + size, *c2 = c1 + size;
-    const Lanes d0 = broadcast(d[first]), d1 = broadcast(d[first + 1]), d2 = broadcast(d[first + 2]);
-    std::size_t i = 0;
-    for (; i + 4 <= size; i += 4) {
-      const Lanes sum =
-          load_four(result + i) + (d0 * load_four(c0 + i) + d1 * load_four(c1 + i) + d2 * load_four(c2 + i));
-      std::memcpy(result + i, &sum, sizeof sum);
-    }
-    for (; i < size; ++i) result[i] = result[i] + (d[first] * c0[i] + d[first + 1] * c1[i] + d[first + 2] * c2[i]);
-  }
+  std::size_t first = 0;
+  for (; first + 12 <= size; first += 12) add_columns<12>(matrix + first * size, size, d + first, result);
+  for (; first < size; first += 3) add_columns<3>(matrix + first * size, size, d + first, result);
 }
 
 __attribute__((flatten)) void baseline_product(const double* matrix, std::size_t size, const double* d,
