@@ -206,7 +206,7 @@ class FrameTangent final : public Tangent {
       const auto size = static_cast<Eigen::Index>(part.matrices.size());
       for (std::size_t e = 0; e < part.element_count(); ++e) {
         const Eigen::Matrix3d& q = turns_[part.element_begin + e];
-        turned = Eigen::Map<const Eigen::MatrixXd>(part.matrices.matrix(e), size, size);
+        turned = Eigen::Map<const Eigen::MatrixXd>(part.matrices.matrix(e), size, size).transpose();
         for (Eigen::Index a = 0; a < size; a += 3)
           for (Eigen::Index b = 0; b < size; b += 3) {
             const Eigen::Matrix3d block = q * turned.block<3, 3>(a, b) * q.transpose();

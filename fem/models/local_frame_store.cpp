@@ -17,20 +17,19 @@ ARGIL_LANES_INLINE Lanes load_four(const double* from) {
   return x;
 }
 
-/// Three columns at a time, so that the result is loaded and stored once for three.
+/// Row after row, so that memory is read from one end to the other; four sums side by side hide the latency of
+/// adding.
 ARGIL_LANES_INLINE void run_product(const double* matrix, std::size_t size, const double* d, double* result) {
-  for (std::size_t i = 0; i < size; ++i) result[i] = 0;
-  for (std::size_t first = 0; first < size; first += 3) {
-    const double* c0 = matrix + first * size;
-    const double *c1 = c0 + size, *c2 = c1 + size;
-    const Lanes d0 = broadcast(d[first]), d1 = broadcast(d[first + 1]), d2 = broadcast(d[first + 2]);
+  for (std::size_t row = 0; row < size; ++row, matrix += size) {
+    Lanes sums[4] = {broadcast(0), broadcast(0), broadcast(0), broadcast(0)};
     std::size_t i = 0;
-    for (; i + 4 <= size; i += 4) {
-      const Lanes sum =
-          load_four(result + i) + (d0 * load_four(c0 + i) + d1 * load_four(c1 + i) + d2 * load_four(c2 + i));
-      std::memcpy(result + i, &sum, sizeof sum);
-    }
-    for (; i < size; ++i) result[i] = result[i] + (d[first] * c0[i] + d[first + 1] * c1[i] + d[first + 2] * c2[i]);
+    for (; i + 16 <= size; i += 16)
+      for (std::size_t k = 0; k < 4; ++k) sums[k] += load_four(matrix + i + 4 * k) * load_four(d + i + 4 * k);
+    for (; i + 4 <= size; i += 4) sums[0] += load_four(matrix + i) * load_four(d + i);
+    const Lanes sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    double total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    for (; i < size; ++i) total += matrix[i] * d[i];
+    result[row] = total;
   }
 }
 
@@ -59,7 +58,9 @@ void dense_product(const double* matrix, std::size_t size, const double* d, doub
 void ElementMatrices::append(const std::vector<std::int64_t>& key, const Eigen::MatrixXd& matrix) {
   const auto [place, is_new] = numbers_.try_emplace(key, static_cast<std::uint32_t>(numbers_.size()));
   matrix_of_.push_back(place->second);
-  if (is_new) values_.insert(values_.end(), matrix.data(), matrix.data() + size_ * size_);
+  if (!is_new) return;
+  const Eigen::MatrixXd rows = matrix.transpose();
+  values_.insert(values_.end(), rows.data(), rows.data() + size_ * size_);
 }
 
 std::vector<std::int64_t> ElementMatrices::congruence_key(const ElementBlock& block, std::size_t element,

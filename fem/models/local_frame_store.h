@@ -23,7 +23,7 @@ class ElementMatrices {
 
   std::size_t size() const { return size_; }
   std::size_t distinct_count() const { return numbers_.size(); }
-  /// Column by column.
+  /// Row by row.
   const double* matrix(std::size_t element) const { return values_.data() + matrix_of_[element] * size_ * size_; }
   /// result = K d of one element, both of size() numbers. Distinct matrices stream at the speed of memory.
   void product(std::size_t element, const double* d, double* result) const;
@@ -35,7 +35,7 @@ class ElementMatrices {
   std::vector<double> values_;
 };
 
-/// result = matrix · d, `size` a multiple of 3, the matrix column by column. The same bits on every processor.
+/// result = matrix · d, the matrix row by row. The same bits on every processor.
 void dense_product(const double* matrix, std::size_t size, const double* d, double* result);
 
 }  // namespace argil::fem

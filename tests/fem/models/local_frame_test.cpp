@@ -272,7 +272,8 @@ TEST(LocalFrame, DenseProductIsTheProduct) {
     for (Eigen::Index i = 0; i < k.size(); ++i) k.data()[i] = static_cast<double>(generator()) / 4294967296.0 - 0.5;
     const Eigen::VectorXd d = k.col(1);
     Eigen::VectorXd result(size);
-    dense_product(k.data(), static_cast<std::size_t>(size), d.data(), result.data());
+    const Eigen::MatrixXd rows = k.transpose();
+    dense_product(rows.data(), static_cast<std::size_t>(size), d.data(), result.data());
     EXPECT_LE((result - k * d).norm(), 1e-14 * result.norm() * static_cast<double>(nodes));
   }
 }
