@@ -31,7 +31,7 @@ const char* const k_style = R"(<style>
 .argil .hollow{fill:#ffffff}.argil .best{stroke-width:2.2}
 .argil .leader{stroke:#686e78;stroke-width:.8}.argil .noise{fill:#686e78;fill-opacity:.1}
 .argil .real{stroke:#e4572e;stroke-dasharray:5 4}.argil .failed{stroke:#e4572e;stroke-width:1.6}
-.argil .warning{fill:#c8431c}.argil .ink{fill:none;stroke:#686e78;stroke-width:1.6}
+.argil .dot{fill:#ffffff;pointer-events:none}.argil .warning{fill:#c8431c}.argil .ink{fill:none;stroke:#686e78;stroke-width:1.6}
 .argil .halo{paint-order:stroke;stroke:#ffffff;stroke-width:3;stroke-linejoin:round}
 @media (prefers-color-scheme:dark){
 .argil{fill:#e3e5e8}.argil .ground{fill:#1e2126}.argil .plot{fill:#22262c;stroke:#4a505a}
@@ -83,6 +83,11 @@ std::string marker(double x, double y, const std::string& space, double r) {
       return fmt::format("M{:.1f} {:.1f}h{d}L{:.1f} {:.1f}z", x - 1.15 * r, y - 0.8 * r, x, y + 1.2 * r,
                          fmt::arg("d", 2.3 * r));
   }
+}
+
+std::string dot(double x, double y, const char* colour = nullptr) {
+  const std::string fill = colour ? fmt::format("style=\"fill:{}\" ", colour) : std::string{};
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.7\" {}class=\"dot\"/>\n", x, y, fill);
 }
 
 const char* dashes(const std::string& formulation) {
@@ -234,8 +239,8 @@ class Painter {
         const Placed at = placed(panel_, plot_, panel_.rows[i]);
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", at.x, at.y);
       }
-      svg += fmt::format("<path d=\"{}\" class=\"line\" stroke=\"{}\"{}/>\n", path, colours_.of(s.colour_name),
-                         dashes(s.formulation));
+      svg += fmt::format("<path d=\"{}\" class=\"line\" stroke=\"{}\"{}/>\n", path,
+                         colours_.of(s.colour_name).colour, dashes(s.formulation));
     }
     return svg;
   }
@@ -249,11 +254,12 @@ class Painter {
           const Placed at = placed(panel_, plot_, row);
           const double r = best ? 5.5 : 4;
           layout_.keep_free({at.x - r - 1, at.y - r - 1, 2 * r + 2, 2 * r + 2});
-          const char* colour = colours_.of(s.colour_name);
+          const auto [colour, dotted] = colours_.of(s.colour_name);
           const std::string fill = row.same_law ? fmt::format(" fill=\"{}\"", colour) : std::string{};
           svg += fmt::format("<path d=\"{}\" class=\"{}{}\"{} stroke=\"{}\"><title>{}</title></path>\n",
                              marker(at.x, at.y, row.space, r), row.same_law ? "" : "hollow", best ? " best" : "",
                              fill, colour, escaped(tooltip(panel_, row)));
+          if (dotted) svg += dot(at.x, at.y, row.same_law ? nullptr : colour);
           if (!plot_.error.holds(row.error)) {  // beyond the frame: an arrow says where to
             const double up = row.error > plot_.error.high() ? -1 : 1;
             svg += fmt::format("<path d=\"M{:.1f} {:.1f}l-3 {:.1f}h6z\" fill=\"{}\"/>\n", at.x, at.y + up * (r + 7),
@@ -306,7 +312,7 @@ class Painter {
     const std::string what = count > unplaced ? fmt::format("× {} diverged or stopped, {} refused or not started",
                                                             count - unplaced, unplaced)
                                               : fmt::format("{} refused or not finished", count);
-    return svg + text(k_left + k_plot_width, 71, what, "warning", Align::end);
+    return svg + text(k_width - 24, 34, what, "warning", Align::end);
   }
 
   struct Legend {
@@ -335,7 +341,8 @@ class Painter {
     for (const std::string& name : names) {
       legend.svg +=
           fmt::format("<path d=\"M{} {:.1f}h20\" stroke=\"{}\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
-                      k_legend + 2, y - 4, colours_.of(name));
+                      k_legend + 2, y - 4, colours_.of(name).colour);
+      if (colours_.of(name).dotted) legend.svg += dot(k_legend + 12, y - 4);
       legend.svg += text(k_legend + 32, y, name);
       y += 18;
     }
@@ -382,12 +389,21 @@ class Painter {
 
 Colours::Colours(const std::vector<Panel>& panels) {
   for (const Panel& panel : panels)
-    for (const Series& s : series(panel)) number_.emplace(s.colour_name, number_.size());
+    if (panel.in_motion && usual_.empty() && !panel.rows.empty() && !panel.rows.front().integrator.empty())
+      usual_ = ", " + panel.rows.front().integrator;
+  for (const Panel& panel : panels)
+    for (const Series& s : series(panel)) number_.emplace(key(s.colour_name), number_.size());
 }
 
-const char* Colours::of(const std::string& colour_name) const {
-  const auto found = number_.find(colour_name);
-  return k_colours[found == number_.end() ? k_colours.size() - 1 : found->second % k_colours.size()];
+std::string Colours::key(const std::string& colour_name) const {
+  const bool ends = !usual_.empty() && colour_name.ends_with(usual_);
+  return ends ? colour_name.substr(0, colour_name.size() - usual_.size()) : colour_name;
+}
+
+Colours::Look Colours::of(const std::string& colour_name) const {
+  const auto found = number_.find(key(colour_name));
+  const std::size_t number = found == number_.end() ? k_colours.size() - 1 : found->second;
+  return {k_colours[number % k_colours.size()], number >= k_colours.size()};
 }
 
 std::string escaped(const std::string& text) {

@@ -183,6 +183,8 @@ std::vector<Run> plan(const Lists& lists, Breadth breadth) {
   for (std::size_t depth = 0; depth < (quick ? std::min<std::size_t>(2, deepest) : deepest); ++depth)
     for (const Problem& problem : lists.problems) {
       if (depth >= problem.resolutions.size()) continue;
+      if (quick && depth > 0 && problem.analysis == Analysis::motion)
+        continue;  // there, time steps are what counts
       for (const ModelRow& model : lists.models)
         for (const SpaceRow& space : lists.spaces) {
           const bool usual_model = &model == &lists.models.front(), usual_space = &space == &lists.spaces.front();

@@ -20,7 +20,8 @@ struct Lists {
 [[nodiscard]] Lists all_lists();
 
 enum class Breadth {
-  quick,  // few problems, two resolutions, three time steps; one choice differs from the default at a time
+  quick,  // few problems, two resolutions (one in motion), three time steps; one choice differs from the default at
+          // a time
   usual,  // all problems and resolutions, every model in every space; integrators with the default model
   all     // every integrator with every model in every space, too
 };
