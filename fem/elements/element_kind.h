@@ -14,7 +14,7 @@ struct ElementKind {
   int point_count = 0;
   std::vector<double> shapes;           // [point * node_count + node]
   std::vector<double> gradients;        // [(point * node_count + node) * 3 + axis], with respect to (u, v, w)
-  std::vector<double> weights;          // [point], summing to 1
+  std::vector<double> weights;          // [point], summing to the volume of the cell: 1, of a simplex 1/6
   std::vector<Eigen::Vector3d> points;  // [point], (u, v, w)
   /// Shape functions and gradients (3 x node_count) at any (u, v, w).
   void (*evaluate)(const Eigen::Vector3d& uvw, Eigen::VectorXd& shapes, Eigen::Matrix3Xd& gradients) = nullptr;

@@ -56,7 +56,7 @@ void multiply_stiffness(const double* matrix, std::size_t size, const double* v,
 [[nodiscard]] Eigen::MatrixXd element_stiffness(const ElementBlock& block, std::size_t element,
                                                 const Eigen::Matrix3Xd& rest_nodes, Formulation formulation);
 
-/// The gradient ∂x/∂X at the centre of an element’s reference cell as 3 x 3 = Σ_a x_a g_aᵀ: columns g_a [1/m] of
+/// The gradient ∂x/∂X at the centre of an element's reference cell as 3 x 3 = Σ_a x_a g_aᵀ: columns g_a [1/m] of
 /// its nodes.
 [[nodiscard]] Eigen::Matrix3Xd centre_gradients(const ElementBlock& block, std::size_t element,
                                                 const Eigen::Matrix3Xd& rest_nodes);

@@ -1,5 +1,6 @@
 #include "fem/models/warped_stiffness.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "fem/models/element_stiffness.h"

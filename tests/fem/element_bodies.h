@@ -2,11 +2,14 @@
 // Small distorted bodies of each element kind, in blocks over one node table, for the tests of force models.
 
 #include <Eigen/Dense>
+#include <array>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "fem/element_block.h"
+#include "fem/elements/quadratic_tetrahedron.h"
 #include "fem/material.h"
 
 namespace argil::fem::test {
@@ -165,6 +168,37 @@ inline Body bspline(int n, double distortion, double stretch = 0.2) {
           net.push_back(static_cast<std::uint32_t>(((i + a / 16) * m + j + a / 4 % 4) * m + k + a % 4));
         add_element(body.blocks[0], net);
       }
+  finish(body);
+  return body;
+}
+
+/// The grid of hexahedra(n, distortion), each cell in the six ten-node tetrahedra about its diagonal.
+inline Body tetrahedra(int n, double distortion) {
+  const Body grid = hexahedra(n, distortion);
+  Body body{"tetrahedra", std::vector<ElementBlock>(1), {}, grid.interior};
+  body.blocks[0].kind = &quadratic_tetrahedron();
+  std::vector<Eigen::Vector3d> nodes;
+  for (Eigen::Index i = 0; i < grid.rest.cols(); ++i) nodes.push_back(grid.rest.col(i));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  // Paths along the axes x y z (4, 2, 1 in the numbers of corners) from one end of the diagonal to the other; those
+  // of the second half turn the other way.
+  constexpr std::size_t k_paths[6][3] = {{4, 2, 1}, {2, 1, 4}, {1, 4, 2}, {2, 4, 1}, {4, 1, 2}, {1, 2, 4}};
+  for (std::size_t cell = 0; cell < grid.blocks[0].element_count(); ++cell)
+    for (std::size_t path = 0; path < 6; ++path) {
+      const std::uint32_t* corners = grid.blocks[0].nodes.data() + 8 * cell;
+      const std::size_t first = k_paths[path][0], second = first + k_paths[path][1];
+      std::vector<std::uint32_t> element{corners[0], corners[first], corners[second], corners[7]};
+      if (path >= 3) std::swap(element[1], element[2]);
+      for (const auto& edge : {std::array<std::size_t, 2>{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}) {
+        const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(element[edge[0]], element[edge[1]]);
+        const auto [found, is_new] = middles.try_emplace(ends, static_cast<std::uint32_t>(nodes.size()));
+        if (is_new) nodes.push_back(0.5 * (nodes[ends.first] + nodes[ends.second]));
+        element.push_back(found->second);
+      }
+      add_element(body.blocks[0], element);
+    }
+  body.rest.resize(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) body.rest.col(static_cast<Eigen::Index>(i)) = nodes[i];
   finish(body);
   return body;
 }

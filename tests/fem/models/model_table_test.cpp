@@ -81,7 +81,9 @@ class EveryModel : public testing::TestWithParam<ModelChoice> {
   }
   template <class Check>
   void for_bodies(const Check& check) const {
-    for_bodies(test::all_bodies(), check);
+    std::vector<Body> bodies = test::all_bodies();
+    bodies.push_back(test::tetrahedra(1, 0.1));
+    for_bodies(std::move(bodies), check);
   }
 };
 
@@ -267,8 +269,8 @@ TEST_P(EveryModel, EachElementHasSixZeroModesAtRest) {
 TEST_P(EveryModel, PatchTestIsExactInsideOfMixedMeshes) {
   Eigen::Matrix3d affine;
   affine << 1.1, 0.05, -0.02, 0.03, 0.95, 0.1, -0.04, 0.02, 1.05;
-  std::vector<Body> bodies = {test::hexahedra(4, 0.2), test::pyramids(2, 0.15), test::mixed(4, 0.15),
-                              test::irregular_cell(0.05), test::bspline(4, 0)};
+  std::vector<Body> bodies = {test::hexahedra(4, 0.2),    test::pyramids(2, 0.15),   test::mixed(4, 0.15),
+                              test::irregular_cell(0.05), test::tetrahedra(2, 0.15), test::bspline(4, 0)};
   // Unequal layers, sheared: Jacobians that differ from point to point.
   Eigen::Matrix3d shear;
   shear << 1, 0.3, 0, 0.1, 1.2, -0.2, 0, 0.4, 0.9;
