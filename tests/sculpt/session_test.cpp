@@ -328,6 +328,7 @@ const std::vector<BadLine> k_bad_lines = {
     {"weld tolerance -1", ErrorCode::bad_input, "must lie", "input:1:16"},
     {"weld tolerance 0.5", ErrorCode::bad_topology, "touch itself"},
     {"sculpt", ErrorCode::not_found, "not a command"},
+    {"guard maybe", ErrorCode::bad_input, "must be one of", "input:1:7"},
     {"step 1 step 2", ErrorCode::bad_input, "not one of its arguments", "input:1:8"},
     {"step dt 1 dt 2", ErrorCode::bad_input, "given twice", "input:1:11"},
 };
