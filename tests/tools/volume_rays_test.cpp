@@ -68,7 +68,7 @@ View view_from(const SceneVolume& volume, const Eigen::Vector3d& from) {
 // Where the ray of a pixel enters and leaves the box [m], by unprojecting two places of the pixel and cutting the
 // line between them with the box's sides: nothing is shared with the code under test.
 struct Chord {
-  Eigen::Vector3d enter, exit;
+  Eigen::Vector3d enter = Eigen::Vector3d::Zero(), exit = Eigen::Vector3d::Zero();
   double length = 0;
 };
 Chord chord_of(const View& view, int x, int y) {
