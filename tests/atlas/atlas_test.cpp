@@ -211,12 +211,12 @@ TEST(Atlas, EveryScenesBodyCanBeMadeAndHasAPeriodAndALimit) {
 
 AtlasOptions small_options() {
   AtlasOptions options;
-  options.grid = {.coarse = 3, .depth = 2};
+  options.grid = {.coarse = 2, .depth = 1};
   options.lines = 2;
   options.line_depth = 1;
   options.criteria.least_steps = 20;
   options.criteria.most_steps = 60;
-  options.criteria.reference_steps = 60;
+  options.criteria.reference_steps = 20;
   return options;
 }
 
@@ -241,7 +241,7 @@ TEST(Atlas, GoesOnAfterAKillAndEndsWithTheSameFileForAnyNumberOfThreads) {
     EXPECT_EQ(store.taken_over(), 0U);
   }
   EXPECT_EQ(read_rows(first).size(), rows);
-  EXPECT_GT(rows, 2U * 2U * 4U - 1);
+  EXPECT_GE(rows, 2U * 2U * 3U);  // methods, lines, points
   // Killed in the middle of a row.
   const std::size_t cut = first.find('\n', first.size() / 2) + 30;
   std::ofstream(whole, std::ios::trunc) << first.substr(0, cut);
