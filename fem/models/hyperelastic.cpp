@@ -94,6 +94,7 @@ class Hyperelastic final : public ForceModel {
       promises.rotation_invariant = false;
       promises.largest_rotation = 0.05;  // strain of a rigid rotation: 1 − cos ≈ 1e-3
     }
+    promises.inversion_is_error = kind_ == Law::st_venant_kirchhoff;  // the mirror image has no Green strain
     return promises;
   }
 

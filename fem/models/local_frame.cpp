@@ -233,6 +233,8 @@ class LocalFrame final : public ForceModel {
     Promises promises;
     promises.has_energy = false;
     promises.conserves_momentum = false;  // forces sum to zero, moments do not
+    promises.inversion_is_error = true;   // the mirror image has no force
+    promises.exact_tangent = promises.passes_patch_test = promises.rest_tangent_is_linear = false;
     return promises;
   }
 
@@ -288,6 +290,8 @@ class LocalFrameLiteral final : public ForceModel {
   Promises promises() const override {
     Promises promises;
     promises.has_energy = promises.conserves_momentum = promises.rotation_invariant = false;
+    promises.inversion_is_error = true;
+    promises.exact_tangent = promises.passes_patch_test = promises.rest_tangent_is_linear = false;
     return promises;
   }
   double energy(const Eigen::Matrix3Xd& x) const override {

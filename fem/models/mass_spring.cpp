@@ -208,6 +208,10 @@ class MassSpring final : public ForceModel {
   Promises promises() const override {
     Promises promises;
     promises.has_energy = cubes_->options.correction != SpringCorrection::printed;
+    promises.inversion_is_error = true;  // the mirror image has every length at rest
+    promises.exact_tangent = cubes_->options.correction != SpringCorrection::printed;
+    promises.passes_patch_test = false;  // only where all cells are alike
+    promises.rest_tangent_is_linear = false;
     return promises;
   }
 
