@@ -29,7 +29,7 @@ struct ElementBlock {
   std::vector<double> damping;                          // [1/s]
   // Empty where they are zero everywhere:
   std::vector<double> stiffness_damping;  // Rayleigh: viscous stress = this · rate of elastic stress [s]
-  std::vector<double> prestress;          // initial second Piola–Kirchhoff stress, the same in all directions [Pa]
+  std::vector<double> prestress;  // initial second Piola–Kirchhoff stress, the same in all directions [Pa]
 
   std::size_t element_count() const { return origins.size(); }
   std::size_t point_index(std::size_t element, int point) const {

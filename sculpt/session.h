@@ -23,7 +23,7 @@ namespace argil::sculpt {
 struct StepRecord {
   int newton_iterations = 0, linear_iterations = 0;
   bool converged = false;
-  double residual = 0;  // relative
+  double residual = 0;                                             // relative
   fem::PreconditionerKind solver = fem::PreconditionerKind::none;  // none: explicit, or frozen
   fem::GuardFinding finding = fem::GuardFinding::none;             // what the guard saw, and what helped
   fem::GuardRemedy remedy = fem::GuardRemedy::none;
