@@ -1,11 +1,14 @@
 #include "fem/models/local_frame.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 
 #include "fem/models/local_frame_operator.h"
 #include "fem/models/local_frame_store.h"
 #include "fem/parallel.h"
+#include "subdiv/error.h"
 
 namespace argil::fem {
 namespace {
@@ -177,6 +180,44 @@ Eigen::Matrix3d frame(const Part& part, std::size_t element, const Eigen::Matrix
   return u * svd.matrixV().transpose();
 }
 
+/// The elements with the material that the blocks have now: made anew where it was painted.
+class CurrentFrames {
+ public:
+  CurrentFrames(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, bool literal)
+      : blocks_(blocks), rest_nodes_(rest_nodes), literal_(literal) {
+    for (const ElementBlock& block : blocks)
+      if (block.kind != &trilinear_hexahedron() && block.kind != &bspline_hexahedron() && block.kind != &pyramid())
+        throw Error(
+            ErrorCode::unsupported,
+            fmt::format("the published local frame measures edges and angles of hexahedra and pyramids; a {} "
+                        "has no such; choose another model",
+                        block.kind->name));
+    (void)get();
+  }
+
+  const std::shared_ptr<const LocalFrames>& get() {
+    bool same = frames_ != nullptr;
+    for (std::size_t b = 0; b < blocks_.size() && same; ++b)
+      same = mu_[b] == blocks_[b].mu && lambda_[b] == blocks_[b].lambda;
+    if (same) return frames_;
+    mu_.clear();
+    lambda_.clear();
+    for (const ElementBlock& block : blocks_) {
+      mu_.push_back(block.mu);
+      lambda_.push_back(block.lambda);
+    }
+    frames_ = std::make_shared<LocalFrames>(blocks_, rest_nodes_, literal_);
+    return frames_;
+  }
+
+ private:
+  std::span<const ElementBlock> blocks_;
+  Eigen::Matrix3Xd rest_nodes_;
+  bool literal_;
+  std::vector<std::vector<double>> mu_, lambda_;
+  std::shared_ptr<const LocalFrames> frames_;
+};
+
 /// Q K Qᵀ in every element.
 class FrameTangent final : public Tangent {
  public:
@@ -226,7 +267,7 @@ class FrameTangent final : public Tangent {
 class LocalFrame final : public ForceModel {
  public:
   LocalFrame(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes)
-      : frames_(std::make_shared<LocalFrames>(blocks, rest_nodes, false)) {}
+      : current_(blocks, rest_nodes, false) {}
 
   std::string_view name() const override { return "published"; }
   Promises promises() const override {
@@ -240,7 +281,7 @@ class LocalFrame final : public ForceModel {
 
   double energy(const Eigen::Matrix3Xd& x) const override {
     double total = 0;
-    for (const Part& part : frames_->parts())
+    for (const Part& part : current_.get()->parts())
       total += parallel_sum(part.element_count(), 16, [&](std::size_t e) {
         Local d, force;
         strain_and_force(part, e, x, d, force);
@@ -252,18 +293,19 @@ class LocalFrame final : public ForceModel {
   }
 
   void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
-    slots_.resize(3 * frames_->slot_count());
-    frames_->for_elements([&](const Part& part, std::size_t e) {
+    const LocalFrames& frames = *current_.get();
+    slots_.resize(3 * frames.slot_count());
+    frames.for_elements([&](const Part& part, std::size_t e) {
       Local d, force;
       turn(-strain_and_force(part, e, x, d, force), part.node_count(), force);
       std::copy_n(force.values, 3 * part.node_count(),
                   slots_.data() + 3 * (part.slot_begin + e * part.node_count()));
     });
-    frames_->gather(slots_, forces);
+    frames.gather(slots_, forces);
   }
 
   std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd& x, Projection) const override {
-    return std::make_unique<FrameTangent>(frames_, x);
+    return std::make_unique<FrameTangent>(current_.get(), x);
   }
 
  private:
@@ -277,14 +319,14 @@ class LocalFrame final : public ForceModel {
     return q;
   }
 
-  std::shared_ptr<const LocalFrames> frames_;
+  mutable CurrentFrames current_;
   mutable std::vector<double> slots_;  // working memory: one call at a time
 };
 
 class LocalFrameLiteral final : public ForceModel {
  public:
   LocalFrameLiteral(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes)
-      : frames_(blocks, rest_nodes, true), linear_(make_linear(blocks, rest_nodes)) {}
+      : current_(blocks, rest_nodes, true), linear_(make_linear(blocks, rest_nodes)) {}
 
   std::string_view name() const override { return "published_literal"; }
   Promises promises() const override {
@@ -304,21 +346,22 @@ class LocalFrameLiteral final : public ForceModel {
   }
 
   void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
-    slots_.resize(3 * frames_.slot_count());
-    frames_.for_elements([&](const Part& part, std::size_t e) {
+    const LocalFrames& frames = *current_.get();
+    slots_.resize(3 * frames.slot_count());
+    frames.for_elements([&](const Part& part, std::size_t e) {
       Local d;
       displacements(part, e, x, d);
       std::copy_n(d.values, 3 * part.node_count(), slots_.data() + 3 * (part.slot_begin + e * part.node_count()));
     });
-    frames_.gather(slots_, summed_);
-    frames_.for_elements([&](const Part& part, std::size_t e) {
+    frames.gather(slots_, summed_);
+    frames.for_elements([&](const Part& part, std::size_t e) {
       Local d, force;
       take(part, e, summed_, d);
       part.matrices.product(e, d.values, force.values);
       double* to = slots_.data() + 3 * (part.slot_begin + e * part.node_count());
       for (std::size_t i = 0; i < 3 * part.node_count(); ++i) to[i] = -force.values[i];
     });
-    frames_.gather(slots_, forces);
+    frames.gather(slots_, forces);
   }
 
   /// That of linear elasticity: what an implicit method is given to fail with.
@@ -327,7 +370,7 @@ class LocalFrameLiteral final : public ForceModel {
   }
 
  private:
-  LocalFrames frames_;
+  mutable CurrentFrames current_;
   std::unique_ptr<ForceModel> linear_;
   mutable std::vector<double> slots_;
   mutable Eigen::Matrix3Xd summed_;  // R d, over all elements

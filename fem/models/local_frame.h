@@ -19,8 +19,8 @@ namespace argil::fem {
 /// f_e = −Q K_e Qᵀ ½R_e, K_e with the true Jacobian, Q the polar rotation of F at the middle of the cell. For
 /// trilinear hexahedra, tricubic elements and pyramids (experimental on the latter two). There is no energy:
 /// energy() is ½ ½Rᵀ Q K Qᵀ ½R, as a measure. The tangent is Q K_e Qᵀ, symmetric, not the derivative of the forces.
-/// Dense matrices are shared between congruent elements; they take nodes, rest geometry and materials now: painting
-/// needs a new model. Memory: 288 KiB for each different tricubic element.
+/// Dense matrices are shared between congruent elements; painted material has them made anew at the next call.
+/// Memory: 288 KiB for each different tricubic element. @throws Error (unsupported) for another element kind.
 [[nodiscard]] std::unique_ptr<ForceModel> make_local_frame(std::span<const ElementBlock> blocks,
                                                            const Eigen::Matrix3Xd& rest_nodes);
 
