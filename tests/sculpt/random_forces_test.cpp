@@ -1,7 +1,7 @@
 // Random sessions of force tools at strengths, time steps and materials far beyond what is sensible, over bodies,
-// methods and models: none ends with a value that is not finite, a body that is lost, or a step without end, and
-// few are frozen. At gentle parameters the end is that of a careful implicit run. ARGIL_FUZZ_FORCES asks for more
-// sessions than the few of every run, ARGIL_FUZZ_SEED for others.
+// methods and models: none ends with a value that is not finite, a body that is lost, or a step without end, and of
+// elastic models at most one in a hundred is frozen. At gentle parameters the end is that of a careful implicit
+// run. ARGIL_FUZZ_FORCES asks for more sessions than the few of every run, ARGIL_FUZZ_SEED for others.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -102,7 +102,8 @@ class RandomForces {
 };
 
 struct Tally {
-  long sessions = 0, refused = 0, gentle = 0, frozen = 0, restored_steps = 0, steps = 0, sessions_with_help = 0;
+  long sessions = 0, refused = 0, gentle = 0, frozen = 0, frozen_published = 0, restored_steps = 0, steps = 0,
+       sessions_with_help = 0;
   std::map<std::string, long> found, helped, frozen_by, help_by_method, sessions_by_method;
   double worst_gentle = 0;
   long most_iterations = 0;
@@ -113,6 +114,7 @@ struct Tally {
     refused += other.refused;
     gentle += other.gentle;
     frozen += other.frozen;
+    frozen_published += other.frozen_published;
     steps += other.steps;
     sessions_with_help += other.sessions_with_help;
     for (const auto& [name, count] : other.found) found[name] += count;
@@ -175,7 +177,10 @@ void run_session(std::uint32_t seed, Tally& tally) {
   tally.sessions_with_help += helped;
   tally.help_by_method[session.method] += helped;
   if (test.state().guard.frozen) {
-    ++tally.frozen;
+    // Springs and local frames, which are kept for the chart, have inside-out cells at rest or no energy to lose: a
+    // force that crushes them leaves no step to take.
+    const bool elastic = test.document().model().promises().rest_tangent_is_linear;
+    ++(elastic ? tally.frozen : tally.frozen_published);
     ++tally.frozen_by[session.model + " by " + session.method];
     if (std::getenv("ARGIL_FUZZ_PRINT")) fmt::print("frozen: {}\n", place);
   }
@@ -223,12 +228,14 @@ TEST(RandomForcesSlow, LoseNoBody) {
              counts(tally.helped));
   for (const auto& [method, count] : tally.sessions_by_method)
     fmt::print("  {:<20} {:>4} sessions, helped in {:>4}\n", method, count, tally.help_by_method[method]);
-  fmt::print("frozen at the end: {} ({})\n", tally.frozen, counts(tally.frozen_by));
+  fmt::print("frozen at the end: {} of elastic models, {} of springs and local frames ({})\n", tally.frozen,
+             tally.frozen_published, counts(tally.frozen_by));
   fmt::print("{} gentle sessions, at most {:.2g} from the careful run\n", tally.gentle, tally.worst_gentle);
   if (std::getenv("ARGIL_FUZZ_PRINT")) fmt::print("worst: {}\n", tally.worst_gentle_session);
   EXPECT_GT(tally.sessions, sessions / 2);
   EXPECT_GT(tally.sessions_with_help, 0);  // else it would try little
   EXPECT_LE(tally.frozen, std::max(1L, sessions / 100));
+  EXPECT_LE(tally.frozen_published, std::max(4L, sessions / 10));
   // A step has at most 17 attempts, each of at most 50 Newton iterations.
   EXPECT_LE(tally.most_iterations, 200000);
 }
