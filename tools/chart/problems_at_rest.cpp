@@ -198,8 +198,8 @@ void add_l_shapes(std::vector<Problem>& to) {
     p.name = c.name;
     p.title = c.title;
     p.quantity =
-        std::string(c.axis == 1 ? "u_y" : "u_z") + " of the arm's end" + (c.linear ? " times 1000 [m]" : " [m]");
-    p.source = std::string("REFERENCES §4, ") + (c.linear ? "linear" : "St. Venant–Kirchhoff");
+        fmt::format("{} of the arm's end{} [m]", c.axis == 1 ? "u_y" : "u_z", c.linear ? " times 1000" : "");
+    p.source = fmt::format("REFERENCES §4, {}", c.linear ? "linear" : "St. Venant–Kirchhoff");
     p.material = {1e5, 0.3, 1000};
     p.solid = [](int r) {
       return sharp_grid({3 * r, r, 3 * r}, {0.3, 0.1, 0.3}, [r](int i, int, int k) { return i < r || k >= 2 * r; });
