@@ -44,7 +44,7 @@ Lines rewritten(const SessionFile& session, const SessionRun* run) {
   };
   for (io::SessionLine line : all) {
     if (sculpt::find_command(line).effect == sculpt::Effect::output) continue;
-    const std::string& name = line.tokens[0].text;
+    const std::string name = line.tokens[0].text;  // the line may be written anew
     const auto rewrite = [&](const std::string& text) {
       line = io::parse_session_line(text, line.file, line.number);
     };
