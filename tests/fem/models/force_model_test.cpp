@@ -7,25 +7,15 @@
 #include <Eigen/Dense>
 
 #include "tests/fem/element_bodies.h"
+#include "tests/fem/models/model_calls.h"
 
 namespace argil::fem {
 namespace {
 
 using test::Body;
-
-Eigen::Matrix3Xd forces_at(const ForceModel& model, const Eigen::Matrix3Xd& x) {
-  Eigen::Matrix3Xd result;
-  model.forces(x, result);
-  return result;
-}
-Eigen::Matrix3Xd product_at(const Tangent& tangent, const Eigen::Matrix3Xd& dx) {
-  Eigen::Matrix3Xd result;
-  tangent.stiffness_product(dx, result);
-  return result;
-}
-double largest(const Eigen::Matrix3Xd& m) {
-  return m.cwiseAbs().maxCoeff();
-}
+using test::forces_at;
+using test::largest;
+using test::product_at;
 
 TEST(ForceModels, ProjectionLeavesAStretchedStateAlone) {
   const Body body = test::hexahedra(2, 0.1);

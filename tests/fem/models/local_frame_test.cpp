@@ -10,20 +10,15 @@
 #include "fem/models/local_frame_operator.h"
 #include "fem/models/local_frame_store.h"
 #include "tests/fem/element_bodies.h"
+#include "tests/fem/models/model_calls.h"
 
 namespace argil::fem {
 namespace {
 
 using test::Body;
+using test::forces_at;
+using test::largest;
 
-Eigen::Matrix3Xd forces_at(const ForceModel& model, const Eigen::Matrix3Xd& x) {
-  Eigen::Matrix3Xd result;
-  model.forces(x, result);
-  return result;
-}
-double largest(const Eigen::Matrix3Xd& m) {
-  return m.cwiseAbs().maxCoeff();
-}
 double inner(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return a.cwiseProduct(b).sum();
 }

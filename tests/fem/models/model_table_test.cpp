@@ -9,6 +9,7 @@
 
 #include "subdiv/error.h"
 #include "tests/fem/element_bodies.h"
+#include "tests/fem/models/model_calls.h"
 
 namespace argil::fem {
 
@@ -20,20 +21,10 @@ void PrintTo(const ModelChoice& choice, std::ostream* out) {
 namespace {
 
 using test::Body;
+using test::forces_at;
+using test::largest;
+using test::product_at;
 
-Eigen::Matrix3Xd forces_at(const ForceModel& model, const Eigen::Matrix3Xd& x) {
-  Eigen::Matrix3Xd result;
-  model.forces(x, result);
-  return result;
-}
-Eigen::Matrix3Xd product_at(const Tangent& tangent, const Eigen::Matrix3Xd& dx) {
-  Eigen::Matrix3Xd result;
-  tangent.stiffness_product(dx, result);
-  return result;
-}
-double largest(const Eigen::Matrix3Xd& m) {
-  return m.cwiseAbs().maxCoeff();
-}
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
