@@ -235,7 +235,10 @@ TEST(View, SamePictureTwiceAndAfterAnotherOne) {
   const Picture first = renderer().render(scene, options(150, 100));
   (void)renderer().render(other, options(64, 300));
   const Picture again = renderer().render(scene, options(150, 100));
-  EXPECT_EQ(first.rgba, again.rgba);
+  ASSERT_EQ(first.rgba.size(), again.rgba.size());
+  for (std::size_t i = 0; i < first.rgba.size(); ++i)
+    ASSERT_EQ(int{first.rgba[i]}, int{again.rgba[i]})
+        << "channel " << i % 4 << " of pixel " << i / 4 % 150 << ", " << i / 600;
   EXPECT_EQ(first.cell_ids, again.cell_ids);
 }
 
