@@ -56,6 +56,8 @@ StepReport Integrator::step(const Loads& loads, BodyState& state, double time_st
     case Method::velocity_verlet:
     case Method::midpoint:
       return impl_->explicit_step(loads, state, time_step, options, clock);
+    case Method::published:
+      return impl_->published_step(loads, state, time_step, options, clock);
   }
   assert(false && "a method without steps");
   return {};

@@ -1,5 +1,6 @@
 #include "fem/dynamics/integrator_body.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -16,21 +17,21 @@ bool same_bits(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 
 }  // namespace
 
+bool same_hold(const std::vector<AnchorSpring>& a, const std::vector<AnchorSpring>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const AnchorSpring& x, const AnchorSpring& y) {
+    return x.stiffness == y.stiffness && x.weights == y.weights && x.control_points == y.control_points;
+  });
+}
+
 bool Integrator::Impl::Key::fits(const Divisors& others, const std::vector<AnchorSpring>& other_springs) const {
-  if (divisors != others) return false;
-  if (without_springs) return true;
-  if (springs.size() != other_springs.size()) return false;
-  for (std::size_t i = 0; i < springs.size(); ++i)
-    if (springs[i].stiffness != other_springs[i].stiffness || springs[i].weights != other_springs[i].weights ||
-        springs[i].control_points != other_springs[i].control_points)
-      return false;
-  return true;
+  return divisors == others && (without_springs || same_hold(springs, other_springs));
 }
 
 void Integrator::Impl::forget_pins() {
   free.clear();
   preconditioner.reset();
   mass_factor.reset();
+  scheme.reset();
 }
 
 void Integrator::Impl::forget_materials() {
@@ -96,14 +97,20 @@ void Integrator::Impl::prepare(const Divisors& divisors, const std::vector<Ancho
 
 const MassFactor& Integrator::Impl::factored_mass(double damping_share) {
   find_free();
-  if (!system.damping || system.damping->nonZeros() == 0) damping_share = 0;
-  if (mass_factor && mass_share == damping_share) return *mass_factor;
-  if (damping_share > 0)
-    mass_factor = std::make_unique<MassFactor>(
-        Eigen::SparseMatrix<double>(*system.mass + damping_share * *system.damping), free);
-  else
+  const bool has_matrix = system.damping && system.damping->nonZeros() > 0;
+  if (!has_matrix && damping_rate == 0) damping_share = 0;
+  const double rate = damping_share > 0 ? damping_rate : 0;
+  if (mass_factor && mass_share == damping_share && mass_rate == rate) return *mass_factor;
+  if (damping_share > 0) {
+    Eigen::SparseMatrix<double> sum = *system.mass;
+    if (rate > 0) sum *= 1 + damping_share * rate;
+    if (has_matrix) sum += damping_share * *system.damping;
+    mass_factor = std::make_unique<MassFactor>(sum, free);
+  } else {
     mass_factor = std::make_unique<MassFactor>(*system.mass, free);
+  }
   mass_share = damping_share;
+  mass_rate = rate;
   return *mass_factor;
 }
 
@@ -188,6 +195,7 @@ Eigen::Matrix3Xd Integrator::Impl::forces(const Loads& loads, const Eigen::Matri
 Eigen::Matrix3Xd Integrator::Impl::with_mass_damping(Eigen::Matrix3Xd forces,
                                                      const Eigen::Matrix3Xd& velocities) const {
   if (system.damping && system.damping->nonZeros() > 0) forces -= velocities * *system.damping;
+  if (damping_rate > 0) forces -= damping_rate * (velocities * *system.mass);
   return forces;
 }
 

@@ -18,6 +18,13 @@ struct Divisors {
   bool operator==(const Divisors&) const = default;
 };
 
+/// What the published method makes of a body: both follow from ω_max of its pencil at rest, with the springs.
+struct PublishedScheme {
+  double damping_rate = 0;            // γ of a damping γ M̃ [1/s]
+  double longest_step = 0;            // [s]
+  std::vector<AnchorSpring> springs;  // those that it was made for; their targets do not matter
+};
+
 struct Integrator::Impl {
   explicit Impl(System of) : system(std::move(of)) {}
 
@@ -29,8 +36,10 @@ struct Integrator::Impl {
   double contrast = -1;  // of stiffness; negative: not asked yet
   Eigen::SparseMatrix<double> inertia;
   std::unique_ptr<Preconditioner> preconditioner;
-  // Explicit methods: M̃ + share D̃, factored.
-  double mass_share = -1;
+  // Explicit methods: M̃ + share (D̃ + rate M̃), factored.
+  double mass_share = -1, mass_rate = 0;
+  double damping_rate = 0;  // [1/s], what the method in use adds to the damping by density
+  std::optional<PublishedScheme> scheme;
   std::unique_ptr<MassFactor> mass_factor;
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(system.rows->column_count); }
@@ -63,6 +72,9 @@ struct Integrator::Impl {
   StepReport generalised_alpha_step(const Loads& loads, BodyState& state, double h, const StepOptions& options,
                                     Clock clock);
   StepReport explicit_step(const Loads& loads, BodyState& state, double h, const StepOptions& options, Clock clock);
+  const PublishedScheme& published_scheme(const std::vector<AnchorSpring>& springs);
+  StepReport published_step(const Loads& loads, BodyState& state, double h, const StepOptions& options,
+                            Clock clock);
 
  private:
   /// What a preconditioner is made for; the springs' targets do not matter.
@@ -79,6 +91,8 @@ struct Integrator::Impl {
   double elastic_energy_ = 0;
 };
 
+/// Whether they hold the same points alike, wherever they pull them.
+[[nodiscard]] bool same_hold(const std::vector<AnchorSpring>& a, const std::vector<AnchorSpring>& b);
 [[nodiscard]] NewtonOptions newton_options(const StepOptions& options);
 /// The state one step on, its history the present one.
 void advance(BodyState& state, Eigen::Matrix3Xd positions, Eigen::Matrix3Xd velocities, double h);

@@ -15,14 +15,15 @@ enum class Method {
   forward_euler,
   symplectic_euler,
   velocity_verlet,
-  midpoint
+  midpoint,
+  published
 };
 
 struct MethodKind {
   Method method;
   std::string_view name;     // as in a session
   std::string_view summary;  // what it is and where it fails, without a full stop
-  int order = 1;             // of the error at the end of a fixed time
+  int order = 1;             // of the error at the end of a fixed time; 0: some of it stays at any step
   bool is_implicit = true;   // solves with the stiffness
 };
 

@@ -20,14 +20,12 @@ double dot(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return a.cwiseProduct(b).sum();
 }
 
-}  // namespace
-
-LargestFrequency largest_frequency(const System& system, std::span<const AnchorSpring> springs,
-                                   const Eigen::Matrix3Xd& positions, double tolerance) {
+LargestFrequency of_pencil(const System& system, std::span<const AnchorSpring> springs,
+                           const Eigen::Matrix3Xd& node_positions, double tolerance) {
   const auto free = moving_control_points(system);
   const InverseMass mass(*system.mass, free);
   const auto size = static_cast<Eigen::Index>(system.rows->column_count);
-  const auto tangent = system.model->tangent(nodes(system, positions), Projection::none);
+  const auto tangent = system.model->tangent(node_positions, Projection::none);
   Eigen::Matrix3Xd node_direction, node_product;
   const auto multiply_stiffness = [&](const Eigen::Matrix3Xd& v, Eigen::Matrix3Xd& result) {
     multiply(*system.rows, v, node_direction);
@@ -92,6 +90,18 @@ LargestFrequency largest_frequency(const System& system, std::span<const AnchorS
   throw Error(ErrorCode::not_converged,
               "the largest frequency was not found in 1000 iterations; look for cells that "
               "are nearly flat, or lower the contrast of the stiffness");
+}
+
+}  // namespace
+
+LargestFrequency largest_frequency(const System& system, std::span<const AnchorSpring> springs,
+                                   const Eigen::Matrix3Xd& positions, double tolerance) {
+  return of_pencil(system, springs, nodes(system, positions), tolerance);
+}
+
+LargestFrequency largest_frequency_at_rest(const System& system, std::span<const AnchorSpring> springs,
+                                           double tolerance) {
+  return of_pencil(system, springs, *system.rest_nodes, tolerance);
 }
 
 }  // namespace argil::fem

@@ -18,5 +18,9 @@ struct LargestFrequency {
 /// the mass an iteration, some 20 to 100 of them.
 [[nodiscard]] LargestFrequency largest_frequency(const System& system, std::span<const AnchorSpring> springs,
                                                  const Eigen::Matrix3Xd& positions, double tolerance = 1e-6);
+/// The same at the rest nodes that the system names.
+[[nodiscard]] LargestFrequency largest_frequency_at_rest(const System& system,
+                                                         std::span<const AnchorSpring> springs,
+                                                         double tolerance = 1e-6);
 
 }  // namespace argil::fem

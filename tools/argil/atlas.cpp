@@ -47,8 +47,8 @@ std::vector<Sweep> chosen_sweeps(const AtlasArguments& arguments) {
   return sweeps;
 }
 
-/// Every model with every integrator; in a quick atlas, every model with the first integrator and every integrator
-/// with the first model.
+/// Every model with every integrator; in a quick atlas, every model with the first integrator, every integrator
+/// with the first model, and the published model with the published one.
 std::vector<AtlasMethod> chosen_methods(const AtlasArguments& arguments) {
   std::vector<std::string> models, names;
   for (const fem::ModelKind& kind : fem::model_table()) models.emplace_back(kind.name);
@@ -60,7 +60,8 @@ std::vector<AtlasMethod> chosen_methods(const AtlasArguments& arguments) {
   for (const std::string& model : models)
     for (const Integration& integration : all) {
       if (!chosen(arguments.models, model) || !chosen(arguments.integrators, integration.name)) continue;
-      const bool on_cross = model == models.front() || integration.name == names.front();
+      const bool on_cross = model == models.front() || integration.name == names.front() ||
+                            (model == "published" && integration.name == "published");
       if (arguments.quick && !on_cross && arguments.models.empty() && arguments.integrators.empty()) continue;
       methods.push_back({{.name = model}, integration});
     }

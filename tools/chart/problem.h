@@ -1,5 +1,5 @@
 #pragma once
-// The problems of the chart, each with a solution that is known from elsewhere (REFERENCES §1–§7, or in closed
+// The problems of the chart, each with a solution that is known from elsewhere (references.md §1–§7, or in closed
 // form): how to build the body at a resolution, what holds and loads it, what is measured and what it should be.
 
 #include "fem/dynamics/method.h"

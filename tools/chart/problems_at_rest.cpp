@@ -1,5 +1,5 @@
-// REFERENCES §1–§5 and §7. Where a reference is that of linear elasticity, the load is a thousandth and what is
-// measured is multiplied by a thousand: every model that is linear at rest has that solution then.
+// docs/references.md §1–§5 and §7. Where a reference is that of linear elasticity, the load is a thousandth and
+// what is measured is multiplied by a thousand: every model that is linear at rest has that solution then.
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ void add_cantilevers(std::vector<Problem>& to) {
   small.name = "cantilever";
   small.title = "Cantilever under a thousandth of its weight";
   small.quantity = "tip deflection times 1000 [m]";
-  small.source = "REFERENCES §1, linear, limit 0.04910 ± 0.00001 m";
+  small.source = "docs/references.md §1, linear, limit 0.04910 ± 0.00001 m";
   small.loads = gravity(9.81 * k_small_load);
   small.measure = displacement_of(tip, {2}, 1 / k_small_load);
   small.reference = constant({-0.04910});
@@ -96,7 +96,7 @@ void add_cantilevers(std::vector<Problem>& to) {
   large.name = "cantilever_weight";
   large.title = "Cantilever under its weight";
   large.quantity = "tip displacement (u_x, u_z) [m]";
-  large.source = "REFERENCES §1, St. Venant–Kirchhoff, limit (−0.003318, −0.04866 ± 0.00002) m";
+  large.source = "docs/references.md §1, St. Venant–Kirchhoff, limit (−0.003318, −0.04866 ± 0.00002) m";
   large.loads = gravity(9.81);
   large.measure = displacement_of(tip, {0, 2}, 1);
   large.reference = constant({-0.003318, -0.04866});
@@ -122,7 +122,7 @@ void add_tip_loads(std::vector<Problem>& to) {
     p.name = c.name;
     p.title = c.title;
     p.quantity = "tip displacement (u_x, u_z) [m]";
-    p.source = "REFERENCES §2, ν = 0, St. Venant–Kirchhoff";
+    p.source = "docs/references.md §2, ν = 0, St. Venant–Kirchhoff";
     p.material = {1e6, 0, 1000};
     p.solid = [](int r) { return sharp_grid({10 * r, r, r}, {1, 0.1, 0.1}); };
     p.resolutions = {1, 2, 4};
@@ -152,7 +152,7 @@ void add_twists(std::vector<Problem>& to) {
     p.name = c.name;
     p.title = c.title;
     p.quantity = "torque [N m]";
-    p.source = fmt::format("REFERENCES §3, St. Venant–Kirchhoff, {} N m", c.torque);
+    p.source = fmt::format("docs/references.md §3, St. Venant–Kirchhoff, {} N m", c.torque);
     p.material = {1e5, 0.3, 1000};
     p.solid = [](int r) { return sharp_grid({4 * r, r, r}, {0.4, 0.1, 0.1}); };
     p.resolutions = {1, 2, 4, 8};
@@ -199,7 +199,7 @@ void add_l_shapes(std::vector<Problem>& to) {
     p.title = c.title;
     p.quantity =
         fmt::format("{} of the arm's end{} [m]", c.axis == 1 ? "u_y" : "u_z", c.linear ? " times 1000" : "");
-    p.source = fmt::format("REFERENCES §4, {}", c.linear ? "linear" : "St. Venant–Kirchhoff");
+    p.source = fmt::format("docs/references.md §4, {}", c.linear ? "linear" : "St. Venant–Kirchhoff");
     p.material = {1e5, 0.3, 1000};
     p.solid = [](int r) {
       return sharp_grid({3 * r, r, 3 * r}, {0.3, 0.1, 0.3}, [r](int i, int, int k) { return i < r || k >= 2 * r; });
@@ -229,7 +229,7 @@ void add_blocks(std::vector<Problem>& to) {
     p.name = c.name;
     p.title = fmt::format("Block between rough plates, ν = {}, a thousandth of 10 %", c.poisson_ratio);
     p.quantity = "force on the plate times 1000 [N]";
-    p.source = fmt::format("REFERENCES §5, linear, {} N", c.force);
+    p.source = fmt::format("docs/references.md §5, linear, {} N", c.force);
     p.material = {1e5, c.poisson_ratio, 1000};
     p.solid = [](int r) { return sharp_grid({r, r, r}, {0.1, 0.1, 0.1}); };
     p.resolutions = {2, 4, 8};
@@ -251,7 +251,7 @@ Problem stretch() {
   p.name = "stretch";
   p.title = "Unit cube stretched by half";
   p.quantity = "force over E";
-  p.source = "REFERENCES §7, St. Venant–Kirchhoff, ν = 0: 0.9375 exactly";
+  p.source = "docs/references.md §7, St. Venant–Kirchhoff, ν = 0: 0.9375 exactly";
   p.material = {1000, 0, 1000};
   p.solid = [](int r) { return sharp_grid({r, r, r}, {1, 1, 1}); };
   p.resolutions = {2, 4};

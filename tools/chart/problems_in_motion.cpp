@@ -1,4 +1,4 @@
-// REFERENCES §6, a bar that spins freely, and a bar that is pulled out and let go.
+// docs/references.md §6, a bar that spins freely, and a bar that is pulled out and let go.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -31,12 +31,12 @@ void add_vibrations(std::vector<Problem>& to) {
   };
   for (const Case& c : {Case{"modes_cantilever",
                              "Frequencies of a clamped bar",
-                             "REFERENCES §6, cantilever, 0.40872 … 6.6817 Hz",
+                             "docs/references.md §6, cantilever, 0.40872 … 6.6817 Hz",
                              false,
                              {0.40872, 0.60863, 2.4886, 3.5863, 4.196, 6.6817}},
                         Case{"modes_free",
                              "Frequencies of a free bar",
-                             "REFERENCES §6, free, 2.5437 … 12.597 Hz",
+                             "docs/references.md §6, free, 2.5437 … 12.597 Hz",
                              true,
                              {2.5437, 3.7170, 6.7516, 8.339, 9.4899, 12.597}}}) {
     Problem p;

@@ -21,7 +21,7 @@ struct Lists {
 
 enum class Breadth {
   quick,  // few problems, two resolutions (one in motion), three time steps; one choice differs from the default at
-          // a time
+          // a time, or model, space and integrator are all as published
   usual,  // all problems and resolutions, every model in every space; integrators with the default model
   all     // every integrator with every model in every space, too
 };
