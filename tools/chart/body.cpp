@@ -2,14 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <optional>
 
+#include "fem/discretization/quadratic_tetrahedra.h"
 #include "subdiv/primitives.h"
 #include "subdiv/transaction.h"
-#if __has_include("fem/discretization/quadratic_tetrahedra.h")
-#include "fem/discretization/quadratic_tetrahedra.h"
-#define ARGIL_CHART_TETRAHEDRA
-#endif
 
 namespace argil::chart {
 
@@ -22,15 +18,6 @@ SpaceRow row_of(std::string name, std::string summary, int level, fem::Space spa
             return Discretized{fem::discretize(refinement, control_points, fields, {.space = space, .split = 1}),
                                control_points};
           }};
-}
-
-// The mixed space is on the chart as soon as fem has it.
-template <class Space>
-std::optional<Space> published_space() {
-  if constexpr (requires { Space::published; })
-    return Space::published;
-  else
-    return std::nullopt;
 }
 
 void sharpen_where_faces_turn(subdiv::Built& built) {
@@ -58,11 +45,9 @@ std::vector<SpaceRow> spaces() {
   std::vector<SpaceRow> rows{
       row_of("default", "trilinear elements of one refinement, in control points", 1, fem::Space::standard),
       row_of("cubic", "tricubic elements on the control grid itself", 0, fem::Space::cubic),
-      row_of("nodes", "plain elements, the nodes their own unknowns", 0, fem::Space::standard)};
-  if (const auto published = published_space<fem::Space>())
-    rows.push_back(
-        row_of("published", "cubic and linear elements mixed as published, not continuous", 1, *published));
-#ifdef ARGIL_CHART_TETRAHEDRA
+      row_of("nodes", "plain elements, the nodes their own unknowns", 0, fem::Space::standard),
+      row_of("published", "cubic and linear elements mixed as published, not continuous", 1,
+             fem::Space::published)};
   rows.push_back({"tetrahedra", "ten-node tetrahedra, the nodes their own unknowns: a reference from outside", 0,
                   [](const subdiv::Refinement& refinement, const Eigen::Matrix3Xd& control_points,
                      const fem::NodalFields& fields) {
@@ -70,8 +55,8 @@ std::vector<SpaceRow> spaces() {
                         fem::quadratic_tetrahedra(refinement.solid(), control_points, fields);
                     Eigen::Matrix3Xd rest = made.rest_nodes;
                     return Discretized{std::move(made), std::move(rest)};
-                  }});
-#endif
+                  },
+                  false});
   return rows;
 }
 

@@ -35,9 +35,10 @@ struct SpaceRow {
   std::function<Discretized(const subdiv::Refinement&, const Eigen::Matrix3Xd& control_points,
                             const fem::NodalFields&)>
       discretize;
+  bool has_hexahedra = true;  // else their formulations are all one
 };
-/// default (one refinement), cubic (none), nodes (the control grid as plain elements), and the mixed space as
-/// published where fem has it.
+/// default (one refinement), cubic (none), nodes (the control grid as plain elements), the mixed space as
+/// published, and quadratic tetrahedra.
 [[nodiscard]] std::vector<SpaceRow> spaces();
 
 struct ModelRow {

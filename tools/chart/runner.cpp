@@ -189,6 +189,7 @@ std::vector<Run> plan(const Lists& lists, Breadth breadth) {
       for (const ModelRow& model : lists.models)
         for (const SpaceRow& space : lists.spaces) {
           const bool usual_model = &model == &lists.models.front(), usual_space = &space == &lists.spaces.front();
+          if (!space.has_hexahedra && model.choice.formulation != fem::Formulation::plain) continue;
           const bool published_model = model.choice.name == k_published;
           const bool as_published = published_model && space.name == k_published;
           if (quick && !usual_model && !usual_space && !as_published) continue;

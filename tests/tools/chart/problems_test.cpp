@@ -102,7 +102,7 @@ TEST(ChartProblems, CubicSpaceReachesPlainHexahedraWithAQuarterOfTheUnknowns) {
 
 TEST(ChartProblems, CorotationalTwistStaysNearStVenantKirchhoffAtSmallStrain) {
   // REFERENCES §3 for the same mesh: .3761, 2.2750, 4.6040. The shear is .065, .39 and .79 at the middle of the
-  // sides.
+  // sides. Our St. Venant–Kirchhoff has the printed digits.
   const struct {
     const char* name;
     double same_mesh, limit, difference;
@@ -116,6 +116,8 @@ TEST(ChartProblems, CorotationalTwistStaysNearStVenantKirchhoffAtSmallStrain) {
                 difference);
     EXPECT_LT(difference, c.difference);
     EXPECT_GT(difference, before);  // grows with the strain
+    const double same_law = (1 + run(c.name, "st_venant_kirchhoff", "nodes", 4).signed_error) * c.limit;
+    EXPECT_NEAR(same_law, c.same_mesh, 1e-4 * c.same_mesh + 5e-5) << c.name;
     before = difference;
   }
 }
@@ -183,6 +185,32 @@ TEST(ChartProblems, FrequenciesConvergeToTheReference) {
 TEST(ChartProblemsSlow, FrequenciesReachHalfAPercent) {
   EXPECT_LT(run("modes_cantilever", "linear", "cubic", 4).error, 0.006);
   EXPECT_LT(run("modes_free", "linear", "cubic", 4).error, 0.006);
+}
+
+/// An element that shares nothing with the hexahedra, at the law of the references.
+TEST(ChartProblemsSlow, QuadraticTetrahedraReachTheReferences) {
+  const struct {
+    const char *name, *model;
+    int coarse, fine;    // resolutions
+    double most, ratio;  // of the error at the fine one, and of the two errors at least
+  } cases[] = {          // half a percent, where that is a matter of seconds
+               {"tip_load_5", "st_venant_kirchhoff", 0, 1, 0.001, 0},
+               {"tip_load_45", "st_venant_kirchhoff", 0, 1, 0.001, 0},
+               {"tip_load_80", "st_venant_kirchhoff", 0, 1, 0.002, 0},
+               {"l_side", "linear", 2, 4, 0.005, 4},
+               {"l_down", "linear", 1, 4, 0.005, 9},
+               {"twist_15", "st_venant_kirchhoff", 1, 3, 0.005, 9},
+               // large deformation: at two cells through the thickness a percent, falling with second order or more
+               {"l_side_large", "st_venant_kirchhoff", 1, 2, 0.01, 4},
+               {"l_down_large", "st_venant_kirchhoff", 1, 2, 0.01, 4},
+               {"twist_90", "st_venant_kirchhoff", 1, 2, 0.0125, 4}};
+  for (const auto& c : cases) {
+    const double fine = run(c.name, c.model, "tetrahedra", c.fine).error;
+    const double ratio = c.coarse > 0 ? run(c.name, c.model, "tetrahedra", c.coarse).error / fine : 0;
+    std::printf("%s, tetrahedra %d: %.5f, %.1f times less than at %d\n", c.name, c.fine, fine, ratio, c.coarse);
+    EXPECT_LT(fine, c.most) << c.name;
+    EXPECT_GE(ratio, c.ratio) << c.name;
+  }
 }
 
 TEST(Frequencies, AreThoseOfTheDensePencil) {
