@@ -1,7 +1,6 @@
 #pragma once
-// Supernodal sparse Cholesky (CHOLMOD, with a serial BLAS so that the bits are the same in every run), found when
-// the build is configured. Its matrix is the rest operator's S₀ without the springs: their rank is small, and a
-// tool that takes hold then needs no new factor.
+// Supernodal sparse Cholesky as a preconditioner, where the build has CHOLMOD. Its matrix is the rest operator's S₀
+// without the springs: their rank is small, and a tool that takes hold then needs no new factor.
 
 #include <memory>
 

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "fem/spectrum/start_vectors.h"
-#include "fem/spectrum/symmetric_factor.h"
+#include "fem/solvers/symmetric_factor.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {

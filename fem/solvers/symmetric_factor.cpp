@@ -1,4 +1,4 @@
-#include "fem/spectrum/symmetric_factor.h"
+#include "fem/solvers/symmetric_factor.h"
 
 #ifdef ARGIL_HAS_CHOLMOD
 #include <Eigen/CholmodSupport>
@@ -23,6 +23,14 @@ SymmetricFactor::SymmetricFactor() : factor_(std::make_unique<Factor>()) {}
 SymmetricFactor::~SymmetricFactor() = default;
 SymmetricFactor::SymmetricFactor(SymmetricFactor&&) noexcept = default;
 SymmetricFactor& SymmetricFactor::operator=(SymmetricFactor&&) noexcept = default;
+
+bool SymmetricFactor::is_supernodal() {
+#ifdef ARGIL_HAS_CHOLMOD
+  return true;
+#else
+  return false;
+#endif
+}
 
 bool SymmetricFactor::compute(const Eigen::SparseMatrix<double>& matrix) {
   factor_->cholesky.compute(matrix);
