@@ -4,15 +4,12 @@
 
 #include "io/file_bytes.h"
 #include "subdiv/error.h"
+#include "tests/io/scratch.h"
 
 namespace argil::io {
 namespace {
 
-std::filesystem::path scratch(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "argil_io";
-  std::filesystem::create_directories(folder);
-  return folder / name;
-}
+using test::scratch;
 
 TEST(Image, ComesBackExactlyWithTheTopRowFirst) {
   std::vector<std::uint8_t> rgba;

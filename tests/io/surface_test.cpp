@@ -7,15 +7,12 @@
 #include "io/file_bytes.h"
 #include "io/surface.h"
 #include "subdiv/error.h"
+#include "tests/io/scratch.h"
 
 namespace argil::io {
 namespace {
 
-std::filesystem::path scratch(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "argil_io";
-  std::filesystem::create_directories(folder);
-  return folder / name;
-}
+using test::scratch;
 
 // A square of side 2 in the plane z = 1/3 and a triangle on one side.
 SurfaceMesh sample() {

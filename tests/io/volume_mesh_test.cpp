@@ -13,6 +13,7 @@
 #include "sample_meshes.h"
 #include "subdiv/build.h"
 #include "subdiv/error.h"
+#include "tests/io/scratch.h"
 
 namespace argil::io {
 namespace {
@@ -23,11 +24,7 @@ using test::every_kind;
 using test::VtuEncoder;
 using test::VtuStyle;
 
-std::filesystem::path scratch(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "argil_io";
-  std::filesystem::create_directories(folder);
-  return folder / name;
-}
+using test::scratch;
 
 void expect_same_fields(const std::vector<NamedField>& a, const std::vector<NamedField>& b) {
   ASSERT_EQ(a.size(), b.size());

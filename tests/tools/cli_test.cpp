@@ -20,17 +20,7 @@ using testing::HasSubstr;
 // Sums over a few cells at coordinates of size 1: a few hundred roundings.
 constexpr double k_rounding = 1e-13;
 
-class Cli : public testing::Test {
- protected:
-  Finished argil(const std::vector<std::string>& arguments) { return run_argil(arguments, folder_.path()); }
-  /// What it printed as JSON; it must have ended well.
-  json answer(const std::vector<std::string>& arguments) {
-    const Finished finished = argil(arguments);
-    EXPECT_EQ(finished.status, 0) << finished.err;
-    return json::parse(finished.out);
-  }
-  TemporaryFolder folder_;
-};
+class Cli : public ArgilCalls {};
 
 std::vector<Corner> obj_vertices(const std::filesystem::path& path) {
   std::vector<Corner> vertices;

@@ -2,6 +2,8 @@
 // What tests of whole programs need: a folder that goes away, and a program run in it as a user would, with what it
 // printed and its exit status.
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -46,5 +48,18 @@ bool run_and_kill(const std::filesystem::path& program, const std::vector<std::s
                   unsigned turns);
 /// Runs the argil that was built with these tests.
 Finished run_argil(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// Calls of argil in a folder of their own.
+class ArgilCalls : public testing::Test {
+ protected:
+  Finished argil(const std::vector<std::string>& arguments) { return run_argil(arguments, folder_.path()); }
+  /// What it printed as JSON; it must have ended well.
+  nlohmann::json answer(const std::vector<std::string>& arguments) {
+    const Finished finished = argil(arguments);
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    return nlohmann::json::parse(finished.out);
+  }
+  TemporaryFolder folder_;
+};
 
 }  // namespace argil::tests

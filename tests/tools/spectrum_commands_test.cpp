@@ -23,16 +23,7 @@ constexpr const char* k_bar =
     "argil 1\nnew box 16 2 2 size 1 0.08 0.12\nselect edges angle 30\nsharpen 10\nlevels 1\nset young_modulus 1e6\n"
     "pin where x < 1e-6\nsave bar.vtu\nexpect volume 17\n";
 
-class SpectrumCommands : public testing::Test {
- protected:
-  Finished argil(const std::vector<std::string>& arguments) { return run_argil(arguments, folder_.path()); }
-  json answer(const std::vector<std::string>& arguments) {
-    const Finished finished = argil(arguments);
-    EXPECT_EQ(finished.status, 0) << finished.err;
-    return json::parse(finished.out);
-  }
-  TemporaryFolder folder_;
-};
+class SpectrumCommands : public ArgilCalls {};
 
 TEST_F(SpectrumCommands, ModesOfASessionAreThoseOfItsEndAndNothingElseIsWritten) {
   folder_.write("bar.argil", k_bar);

@@ -162,18 +162,23 @@ void ScenePainter::draw_surface(const Program& program, const Camera& camera) co
   gl.DrawElements(GL_TRIANGLES, surface_.count(), GL_UNSIGNED_INT, nullptr);
 }
 
-void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
-                              float half_width, const Colour& tint, float full_length) const {
-  if (lines.count() == 0) return;
+float ScenePainter::use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const {
   const Gl& gl = *gl_;
-  const Program& program = line_program_;
   const auto factor = static_cast<float>(sampling.factor);
-  const float scale = factor * sampling.pixel;
   program.use();
   gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
   gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
   gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
                0.5F * factor * static_cast<float>(sampling.height));
+  return factor * sampling.pixel;
+}
+
+void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
+                              float half_width, const Colour& tint, float full_length) const {
+  if (lines.count() == 0) return;
+  const Gl& gl = *gl_;
+  const Program& program = line_program_;
+  const float scale = use_in_pixels(program, camera, sampling);
   gl.Uniform1f(program.at("half_width"), half_width * scale);
   gl.Uniform2f(program.at("visible_length"), 0.07F * full_length * scale, full_length * scale);
   gl.Uniform3f(program.at("distances"), camera.nearest, camera.farthest, 0.35F);
@@ -187,13 +192,7 @@ void ScenePainter::draw_marks(const VertexArray& marks, const Camera& camera, co
   if (marks.count() == 0) return;
   const Gl& gl = *gl_;
   const Program& program = mark_program_;
-  const auto factor = static_cast<float>(sampling.factor);
-  const float scale = factor * sampling.pixel;
-  program.use();
-  gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
-  gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
-  gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
-               0.5F * factor * static_cast<float>(sampling.height));
+  const float scale = use_in_pixels(program, camera, sampling);
   gl.Uniform1f(program.at("radius"), radius * scale);
   gl.Uniform1f(program.at("outline"), 1.3F * scale);
   gl.Uniform1f(program.at("forward"), 0.015F);

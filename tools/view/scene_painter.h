@@ -37,6 +37,8 @@ class ScenePainter {
  private:
   void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
   void draw_surface(const Program& program, const Camera& camera) const;
+  /// Takes a program whose shapes have sizes in pixels; returns samples a pixel of the theme.
+  float use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const;
   void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
                   const Colour& tint, float full_length) const;
   void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
