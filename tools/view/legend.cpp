@@ -15,6 +15,7 @@ namespace {
 
 constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
 constexpr float k_bar_height = 250;
+constexpr float k_stroke = 30;  // of the key, long
 
 /// The unit as written and how many of it one of the legend's is.
 struct Shown {
@@ -95,6 +96,28 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
                 theme.quiet_text, Align::right);
     if (part > 0.01 && part < 0.99)
       canvas.bar(left, y - 0.5F * pixel, 5 * pixel, pixel, 0, [](float) { return colour(0xFFFFFF, 0.45F); });
+  }
+}
+
+double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int width) {
+  float text = 0;
+  for (const sculpt::SceneLines& lines : scene.lines)
+    if (!lines.name.empty()) text = std::max(text, font.width(lines.name, k_tick_size * pixel));
+  return text == 0 ? 0 : static_cast<double>(text + (k_right + k_stroke + k_gap + 20) * pixel) / width;
+}
+
+void draw_key(Canvas& canvas, const sculpt::Scene& scene, const Theme& theme, float pixel, int width, int height) {
+  const float right = std::round(static_cast<float>(width) - k_right * pixel), left = right - k_stroke * pixel;
+  float y = k_top * pixel;
+  if (scene.legend) y += bar_height(pixel, height) + 30 * pixel;
+  for (const sculpt::SceneLines& lines : scene.lines) {
+    if (lines.name.empty()) continue;
+    const Colour tint = line_colour(lines.look, theme);
+    const float thick = (lines.look == sculpt::LineLook::overlay ? 1.2F : 3) * pixel;
+    canvas.bar(left, y - 0.5F * thick, right - left, thick, 0.5F * thick, [&](float) { return tint; });
+    canvas.text(left - k_gap * pixel, y + 0.36F * k_tick_size * pixel, k_tick_size * pixel, lines.name, theme.text,
+                Align::right);
+    y += 24 * pixel;
   }
 }
 
