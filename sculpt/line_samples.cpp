@@ -21,7 +21,9 @@ constexpr double k_slack = 2;
 SampledLine table_of(const Eigen::Matrix3Xd& rest, const Eigen::Matrix3Xd& displacements) {
   SampledLine line;
   SampledColumn distance{"distance", "m", "distance along the line", {}};
-  for (Eigen::Index i = 0; i < rest.cols(); ++i) distance.values.push_back((rest.col(i) - rest.col(0)).norm());
+  const double length = (rest.col(rest.cols() - 1) - rest.col(0)).norm();
+  for (Eigen::Index i = 0; i < rest.cols(); ++i)
+    distance.values.push_back(static_cast<double>(i) * length / static_cast<double>(rest.cols() - 1));
   line.columns.push_back(std::move(distance));
   const auto add = [&](const std::string& name, const std::string& title, const auto& row) {
     SampledColumn column{name, "m", title, {}};
@@ -80,10 +82,8 @@ Eigen::Matrix3Xd points_between(const std::array<Eigen::Vector3d, 2>& ends, int 
   if (count < 2)
     throw Error(ErrorCode::bad_input, fmt::format("a line has 2 points at least, not {}; 41 are usual", count));
   Eigen::Matrix3Xd points(3, count);
-  for (int i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / (count - 1);
-    points.col(i) = (1 - share) * ends[0] + share * ends[1];
-  }
+  for (int i = 0; i < count; ++i)
+    points.col(i) = (static_cast<double>(count - 1 - i) * ends[0] + static_cast<double>(i) * ends[1]) / (count - 1);
   return points;
 }
 

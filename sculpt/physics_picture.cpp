@@ -211,7 +211,7 @@ void add_springs(Scene& scene, const Document& document, const CellData<std::uin
 
 void add_material_line(Scene& scene, const Document& document, const std::array<Eigen::Vector3d, 2>& ends,
                        int parts) {
-  SceneLines lines{LineLook::material_line, {}};
+  SceneLines lines{LineLook::material_line, {}, "material line"};
   Eigen::Vector3f before = Eigen::Vector3f::Zero();
   for (int i = 0; i <= parts; ++i) {
     const double share = static_cast<double>(i) / parts;
