@@ -9,7 +9,10 @@
 
 #include "fem/elements/element_kind.h"
 #include "fem/measure/cell_tetrahedra.h"
+#include "fem/models/spring_lattice.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/scene.h"
+#include "sculpt/shown_fields.h"
 #include "subdiv/build.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"
@@ -179,7 +182,48 @@ Scene corner_scene(const Document& document, std::uint32_t vertex) {
   return scene;
 }
 
-void add_overlay(Scene& scene, const io::SurfaceMesh& surface) {
+void add_springs(Scene& scene, const Document& document, const CellData<std::uint8_t>& kept) {
+  const std::string& model = document.state().model.name;
+  const std::optional<fem::DiagonalSprings> diagonals = fem::model_by_name(model).springs;
+  if (!diagonals)
+    throw Error(ErrorCode::unsupported,
+                fmt::format("the model {} has no springs to draw; choose one that has, as in `model mass_spring`, "
+                            "or leave out springs",
+                            model));
+  const fem::Discretization& discretization = document.discretization();
+  const Eigen::Matrix3Xd nodes = apply(discretization.nodes.rows, document.positions());
+  const auto at = [&](std::uint32_t node) -> Eigen::Vector3f {
+    return nodes.col(static_cast<Eigen::Index>(node)).cast<float>();
+  };
+  std::array<SceneLines, 3> sets{SceneLines{LineLook::edge_spring, {}, "edges"},
+                                 SceneLines{LineLook::face_spring, {}, "face diagonals"},
+                                 SceneLines{LineLook::inner_spring, {}, "inner diagonals"}};
+  std::vector<std::uint8_t> used(static_cast<std::size_t>(nodes.cols()), 0);
+  for (const fem::LatticeSpring& spring : fem::spring_lattice(discretization.blocks, *diagonals, kept.raw())) {
+    sets[static_cast<std::size_t>(spring.kind)].lines.push_back({at(spring.from), at(spring.to)});
+    used[spring.from] = used[spring.to] = 1;
+  }
+  for (std::uint32_t node = 0; node < used.size(); ++node)
+    if (used[node] != 0) scene.cage_points.push_back(at(node));
+  for (SceneLines& lines : sets)
+    if (!lines.lines.empty()) scene.lines.push_back(std::move(lines));
+}
+
+void add_material_line(Scene& scene, const Document& document, const std::array<Eigen::Vector3d, 2>& ends,
+                       int parts) {
+  SceneLines lines{LineLook::material_line, {}, "material line"};
+  Eigen::Vector3f before = Eigen::Vector3f::Zero();
+  for (int i = 0; i <= parts; ++i) {
+    const double share = static_cast<double>(i) / parts;
+    const fem::MaterialPoint point = material_point(document, (1 - share) * ends[0] + share * ends[1]);
+    const Eigen::Vector3f now = fem::position(point.stencil, document.positions()).cast<float>();
+    if (i > 0) lines.lines.push_back({before, now});
+    before = now;
+  }
+  scene.lines.push_back(std::move(lines));
+}
+
+void add_overlay(Scene& scene, const io::SurfaceMesh& surface, const std::string& name) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (std::size_t f = 0; f < surface.face_count(); ++f) {
     const auto face = surface.face(f);
@@ -190,11 +234,44 @@ void add_overlay(Scene& scene, const io::SurfaceMesh& surface) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  SceneLines lines{LineLook::overlay, {}};
+  SceneLines lines{LineLook::overlay, {}, name};
   for (const auto& ends : edges)
     lines.lines.push_back(
         {surface.positions.col(ends[0]).cast<float>(), surface.positions.col(ends[1]).cast<float>()});
   scene.lines.push_back(std::move(lines));
+}
+
+void lay_under(Scene& scene, const ComparedMesh& mesh, const std::string& field, bool wires) {
+  if (mesh.volume.solid.cell_count() == 0)
+    throw Error(
+        ErrorCode::bad_input,
+        "an underlay is a volume mesh, as `save` writes .vtu, but this file holds a surface alone; show its "
+        "edges with `overlay FILE`");
+  SceneLines lines{LineLook::overlay, {}, "this solid"};
+  for (const auto& ends : scene.surface.wire)
+    lines.lines.push_back({scene.surface.positions[ends[0]], scene.surface.positions[ends[1]]});
+  if (!lines.lines.empty()) scene.lines.push_back(std::move(lines));
+  scene.surface = cells_surface(mesh.volume.solid, mesh.volume.positions);
+  if (!wires) scene.surface.wire.clear();
+  if (field.empty()) return;
+  const auto fields = derived_fields();
+  const auto info = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return field == f.name; });
+  if (!field.starts_with("displacement") || info == fields.end())
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("an underlay shows its displacements only, not {}; write `field displacement`, or _x, _y "
+                    "or _z of it",
+                    field));
+  if (mesh.displacements.cols() == 0)
+    throw Error(ErrorCode::bad_input,
+                "the underlay has no point field displacement of three components, as `save` writes to .vtu and "
+                ".vtk; leave out field");
+  std::vector<double> values;
+  for (Eigen::Index v = 0; v < mesh.displacements.cols(); ++v)
+    values.push_back(field == "displacement" ? mesh.displacements.col(v).norm()
+                                             : mesh.displacements(field.back() - 'x', v));
+  show_field(scene, values, std::string(info->title) + " underneath", info->unit,
+             info->has_sign ? ColourMap::balanced : ColourMap::viridis);
 }
 
 }  // namespace argil::sculpt

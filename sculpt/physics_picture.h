@@ -1,6 +1,7 @@
 #pragma once
 // What pictures show of the mechanics beside colours: the inside as a volume, local frames of cells (papers/004,
-// Figs. 4 and 5), a sheared corner (Fig. 3), and another mesh as wires over the body.
+// Figs. 4 and 5), a sheared corner (Fig. 3), springs (papers/001, Figs. 1 and 4), material lines, and another mesh
+// as wires over the body or as the surface under its wires (papers/001, Figs. 5 and 6).
 
 #include <cstdint>
 
@@ -38,7 +39,23 @@ struct ShearedCorner {
 /// The cells about the corner as wires, its sides, the sides without shear, and labels.
 [[nodiscard]] Scene corner_scene(const Document& document, std::uint32_t vertex);
 
-/// Adds the edges of a surface as an overlay.
-void add_overlay(Scene& scene, const io::SurfaceMesh& surface);
+/// The springs of a model that is made of springs, as they stand now, in a colour for each kind (in the key of the
+/// picture), with a point for each node; of the kept cells. Volume energies, corrections and hourglass springs are
+/// not between two nodes and have no line.
+/// @throws Error (unsupported) for a model without springs, or elements that have none.
+void add_springs(Scene& scene, const Document& document, const subdiv::CellData<std::uint8_t>& kept = {});
+
+/// A straight line of the body at rest, in `parts` equal parts, where its points are now.
+/// @throws Error (bad_input) for a point that is not in the body.
+void add_material_line(Scene& scene, const Document& document, const std::array<Eigen::Vector3d, 2>& ends,
+                       int parts = 64);
+
+/// Adds the edges of a surface as an overlay; with a name they are in the key of the picture.
+void add_overlay(Scene& scene, const io::SurfaceMesh& surface, const std::string& name = "");
+
+/// Puts another mesh in the place of the scene's surface, whose wires stay as an overlay. `field` is displacement,
+/// displacement_x, _y or _z, out of the mesh's own displacements, or empty for clay; `wires` with the mesh's own.
+/// @throws Error (bad_input) for another field, a mesh that is a surface alone, or one without displacements.
+void lay_under(Scene& scene, const ComparedMesh& mesh, const std::string& field, bool wires);
 
 }  // namespace argil::sculpt

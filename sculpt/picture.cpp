@@ -159,6 +159,12 @@ SceneSurface surface_of(const Solid& solid, const Eigen::Matrix3Xd& positions, c
   return surface;
 }
 
+void apply_range(Scene& scene, const PictureRequest& request) {
+  if (!request.range || !scene.legend) return;
+  scene.legend->low = (*request.range)[0];
+  scene.legend->high = (*request.range)[1];
+}
+
 void add_field(Scene& scene, const Document& document, const PictureRequest& request,
                const Eigen::Matrix3Xd& positions, const CellData<std::uint8_t>& kept) {
   const ShownField field = shown_field(document, request.field, request.reference.get());
@@ -173,9 +179,7 @@ void add_field(Scene& scene, const Document& document, const PictureRequest& req
     show_field(scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title, field.unit,
                map);
   }
-  if (!request.range) return;
-  scene.legend->low = (*request.range)[0];
-  scene.legend->high = (*request.range)[1];
+  apply_range(scene, request);
 }
 
 }  // namespace
@@ -200,17 +204,30 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
     scene.draw_surface = false;
     add_lines(scene, solid, positions, request.style == PictureStyle::boundary_wireframe);
   }
-  if (!request.field.empty()) add_field(scene, document, request, positions, kept);
+  if (!request.field.empty() && !request.underlay) add_field(scene, document, request, positions, kept);
   if (request.frames) {
     add_frames(scene, document, *request.frames, kept);
     scene.draw_surface = false;
   }
+  if (request.springs) {
+    add_springs(scene, document, kept);
+    scene.surface.wire.clear();
+    scene.draw_surface = false;
+  }
   if (request.overlay_rest)
-    add_overlay(scene, surface_mesh(solid, document.state().level == 0 ? document.rest()
-                                                                       : document.surface_nodes(document.rest())));
+    add_overlay(scene,
+                surface_mesh(
+                    solid, document.state().level == 0 ? document.rest() : document.surface_nodes(document.rest())),
+                request.springs ? "at rest" : "");
   if (request.overlay) add_overlay(scene, *request.overlay);
   if (request.cage) add_cage(scene, document.solid(), document.positions());
+  if (request.line) add_material_line(scene, document, *request.line);
   if (request.marks) add_marks(scene, document, request, positions);
+  if (request.underlay) {
+    lay_under(scene, *request.underlay, request.field, request.underlay_wires);
+    apply_range(scene, request);
+    scene.draw_surface = true;
+  }
   return scene;
 }
 

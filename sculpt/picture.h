@@ -36,11 +36,15 @@ struct PictureRequest {
   std::optional<std::uint32_t> corner;     // instead of the solid: the sheared corner at this vertex
   std::optional<io::SurfaceMesh> overlay;  // edges of another mesh
   bool overlay_rest = false;               // those of the solid at rest
-  int net_steps = 4;                       // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
+  std::shared_ptr<const ComparedMesh> underlay;  // in place of the surface, under the solid's wires; with the field
+  bool underlay_wires = false;                   // and with its own edges
+  bool springs = false;                          // those of the model, in place of surface and wires
+  std::optional<std::array<Eigen::Vector3d, 2>> line;  // ends of a material line, at rest
+  int net_steps = 4;  // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
 };
 
 /// @throws Error (bad_input) for a cell or vertex that is not there, a cell without a net, a volume without a
-/// field.
+/// field; and what add_springs, add_material_line and lay_under throw.
 [[nodiscard]] Scene make_scene(const Document& document, const PictureRequest& request);
 
 }  // namespace argil::sculpt

@@ -111,25 +111,31 @@ Eigen::VectorXd ReferenceShape::distances(const Eigen::Matrix3Xd& rest, const Ei
       result[i] = (present.col(i) - impl_->surface->nearest(present.col(i))).norm();
     return result;
   }
-  fem::parallel_for(static_cast<std::size_t>(result.size()), 64, [&](std::size_t i) {
+  const Eigen::Matrix3Xd there = positions(rest);
+  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = (present.col(i) - there.col(i)).norm();
+  return result;
+}
+
+Eigen::Matrix3Xd ReferenceShape::positions(const Eigen::Matrix3Xd& rest) const {
+  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, rest.cols());
+  std::vector<std::uint8_t> found(static_cast<std::size_t>(rest.cols()), 0);
+  fem::parallel_for(found.size(), 64, [&](std::size_t i) {
     const auto column = static_cast<Eigen::Index>(i);
     const auto at = impl_->rest->locate(rest.col(column), k_slack);
-    if (!at) {
-      result[column] = -1;
-      return;
-    }
-    Eigen::Vector3d there = Eigen::Vector3d::Zero();
+    if (!at) return;
+    found[i] = 1;
     for (std::size_t k = 0; k < 4; ++k)
-      there += at->weights[k] * impl_->present.col(impl_->corners[at->tetrahedron][k]);
-    result[column] = (present.col(column) - there).norm();
+      result.col(column) += at->weights[k] * impl_->present.col(impl_->corners[at->tetrahedron][k]);
   });
-  for (Eigen::Index i = 0; i < result.size(); ++i)
-    if (result[i] < 0)
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] == 0) {
+      const Eigen::Vector3d point = rest.col(static_cast<Eigen::Index>(i));
       throw Error(
           ErrorCode::bad_input,
           fmt::format("the reference does not reach the rest position ({:g}, {:g}, {:g}) of the solid; compare "
                       "with a solution of the same body, at the same place when at rest",
-                      rest(0, i), rest(1, i), rest(2, i)));
+                      point.x(), point.y(), point.z()));
+    }
   return result;
 }
 

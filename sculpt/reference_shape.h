@@ -39,6 +39,9 @@ class ReferenceShape {
   /// `rest` and `present`, both 3 x points [m]; one distance a point [m]. In parallel.
   /// @throws Error (bad_input) naming a rest position that the reference's body does not reach.
   [[nodiscard]] Eigen::VectorXd distances(const Eigen::Matrix3Xd& rest, const Eigen::Matrix3Xd& present) const;
+  /// Where the reference puts points by their rest positions, 3 x points [m]; only at_common_points().
+  /// @throws as above.
+  [[nodiscard]] Eigen::Matrix3Xd positions(const Eigen::Matrix3Xd& rest) const;
 
  private:
   struct Impl;

@@ -44,10 +44,22 @@ struct SceneLegend {
 };
 
 /// Lines over the picture, what lies behind the surface faintly.
-enum class LineLook { overlay, axis_u, axis_v, axis_w, side, rest_side };
+enum class LineLook {
+  overlay,
+  axis_u,
+  axis_v,
+  axis_w,
+  side,
+  rest_side,
+  edge_spring,
+  face_spring,
+  inner_spring,
+  material_line
+};
 struct SceneLines {
   LineLook look = LineLook::overlay;
   std::vector<std::array<Eigen::Vector3f, 2>> lines;
+  std::string name{};  // empty: not in the key of the picture
 };
 
 /// A field inside a body, for a volume rendering: linear in each tetrahedron. Light is emitted in the legend's

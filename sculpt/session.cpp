@@ -207,6 +207,11 @@ void Session::measured(const std::string& name, double value) {
   measures_.push_back({name, value, current_.number});
 }
 
+void Session::sampled(SampledLine line) {
+  std::erase_if(samples_, [&](const SampledLine& before) { return before.name == line.name; });
+  samples_.push_back(std::move(line));
+}
+
 void Session::trace(const std::string& what) {
   if (!trace_.is_open()) return;
   trace_ << current_.number << ' ' << what << ' ' << steps_.size() << ' '

@@ -14,6 +14,7 @@
 #include "sculpt/column_changes.h"
 #include "sculpt/command.h"
 #include "sculpt/document.h"
+#include "sculpt/line_samples.h"
 #include "sculpt/renderer.h"
 #include "sculpt/step_trace.h"
 
@@ -102,6 +103,8 @@ class Session {
   bool stop_requested() const;
   void expectation_failed(const std::string& message);
   void measured(const std::string& name, double value);
+  /// Keeps a table for plots; one of the same name before goes.
+  void sampled(SampledLine line);
   /// "file:line:column" of the line that runs.
   std::string place() const;
 
@@ -109,6 +112,7 @@ class Session {
   const std::vector<StepRecord>& steps() const { return steps_; }
   const std::vector<FailedExpectation>& failed() const { return failed_; }
   const std::vector<MeasureRecord>& measures() const { return measures_; }
+  const std::vector<SampledLine>& samples() const { return samples_; }
   std::filesystem::path journal_path() const { return journal_path_; }
   int expectations = 0;
   int skipped_pictures = 0;
@@ -131,6 +135,7 @@ class Session {
   std::vector<StepRecord> steps_;
   std::vector<FailedExpectation> failed_;
   std::vector<MeasureRecord> measures_;
+  std::vector<SampledLine> samples_;
   io::SessionLine current_;
   std::filesystem::path journal_path_;
   std::ofstream journal_, trace_;

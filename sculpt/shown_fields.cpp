@@ -38,6 +38,18 @@ Eigen::VectorXd lengths(const Eigen::Matrix3Xd& vectors) {
   return result;
 }
 
+// Of the vertices that are there: where cells have been removed, ids without a place stay behind.
+Eigen::VectorXd errors(const Document& document, const ReferenceShape& reference, const Eigen::Matrix3Xd& rest,
+                       const Eigen::Matrix3Xd& now) {
+  const subdiv::Solid& solid = document.refinement().solid();
+  std::vector<Eigen::Index> live;
+  for (const subdiv::VertexId v : solid.vertices()) live.push_back(static_cast<Eigen::Index>(v.index()));
+  const Eigen::VectorXd distances = reference.distances(rest(Eigen::all, live), now(Eigen::all, live));
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(now.cols());
+  for (std::size_t i = 0; i < live.size(); ++i) result[live[i]] = distances[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
 Eigen::VectorXd values_of(const Document& document, std::string_view name, const ReferenceShape* reference) {
   const Eigen::Matrix3Xd now = document.surface_nodes(document.positions());
   const auto& shown = document.shown_elements();
@@ -51,7 +63,7 @@ Eigen::VectorXd values_of(const Document& document, std::string_view name, const
   if (name == "distortion") return shown.distortion(now);
   if (name == "speed") return lengths(document.surface_nodes(document.state().motion->velocities));
   const Eigen::Matrix3Xd rest = document.surface_nodes(document.rest());
-  if (name == "error") return reference->distances(rest, now);
+  if (name == "error") return errors(document, *reference, rest, now);
   if (name == "displacement") return lengths(now - rest);
   return (now - rest).row(name.back() - 'x').transpose();
 }

@@ -2,12 +2,14 @@
 // The force models by name, in one table that sessions, charts, tests and help read.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "fem/models/force_model.h"
 #include "fem/models/formulation.h"
+#include "fem/models/mass_spring.h"
 
 namespace argil::fem {
 
@@ -24,6 +26,7 @@ struct ModelKind {
                                       Formulation);
   bool has_b_bar = false, has_incompatible_modes = false;
   bool takes_prestress = true;
+  std::optional<DiagonalSprings> springs{};  // of a model that is made of springs: which diagonals its cubes have
 };
 
 /// The default first.

@@ -22,5 +22,6 @@ std::vector<Command> simulation_commands();  // pin gravity force integrator gua
 std::vector<Command> tool_commands();        // tool stroke
 std::vector<Command> history_commands();     // undo redo
 std::vector<Command> output_commands();      // measure expect save render
+std::vector<Command> sampling_commands();    // sample plot
 
 }  // namespace argil::sculpt

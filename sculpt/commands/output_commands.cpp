@@ -162,6 +162,33 @@ void render(Session& session, const Arguments& arguments) {
           read_compared_mesh(session.path_to_read(arguments.word("overlay")), session.document().limits.cells)
               .surface;
   }
+  if (arguments.has("underlay")) {
+    for (const char* other : {"volume", "clip", "frames", "style", "corner", "net", "reference", "colours"})
+      if (arguments.has(other))
+        throw Error(
+            ErrorCode::bad_input,
+            fmt::format("an underlay takes the place of the surface, so that {0} has nothing to show; leave "
+                        "out {0} or the underlay",
+                        other));
+    request.underlay = std::make_shared<const ComparedMesh>(
+        read_compared_mesh(session.path_to_read(arguments.word("underlay")), session.document().limits.cells));
+  }
+  request.springs = arguments.has("springs");
+  if (request.springs && !request.underlay)
+    for (const char* other : {"field", "volume", "frames", "style", "corner", "net"})
+      if (arguments.has(other))
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("springs take the place of the surface, so that {0} has nothing to show; leave out "
+                                "{0} or springs",
+                                other));
+  if (arguments.has("line")) {
+    const std::vector<double>& ends = arguments.numbers("line");
+    request.line = {Eigen::Vector3d(ends[0], ends[1], ends[2]), Eigen::Vector3d(ends[3], ends[4], ends[5])};
+    if ((*request.line)[0] == (*request.line)[1])
+      throw Error(ErrorCode::bad_input,
+                  "the two ends of the line are the same point; give two, as in `line 0 0.3 "
+                  "0.05 0.6 0.3 0.05`");
+  }
   if (arguments.has("clip")) {
     const auto& plane = arguments.numbers("clip");
     request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
@@ -189,8 +216,9 @@ void render(Session& session, const Arguments& arguments) {
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
   // The cells of both sides of a translucent body would hide it.
-  const std::string wire = arguments.word("wire", request.volume ? "control" : "cells");
+  const std::string wire = arguments.word("wire", request.volume ? "control" : request.underlay ? "none" : "cells");
   options.wireframe = wire != "none";
+  request.underlay_wires = request.underlay && wire == "cells";
   request.control_wire = wire == "control";
   options.light_theme = arguments.has("light");
   const std::string& name = arguments.word("file");
@@ -324,6 +352,19 @@ std::vector<Command> output_commands() {
             {.name = "overlay",
              .type = ArgumentType::text,
              .help = "edges of another mesh: a volume or surface file, or rest for the solid at rest"},
+            {.name = "underlay",
+             .type = ArgumentType::text,
+             .help = "another mesh, a volume file, as the surface under the edges of the solid; of a file with a "
+                     "point field displacement, as save writes it, `field displacement` shows that"},
+            {.name = "springs",
+             .help = "the springs of a mass–spring model by kind, in place of the surface",
+             .flag = true},
+            {.name = "line",
+             .help = "a straight line of the solid at rest, from one point to another, where it is now",
+             .unit = "m",
+             .count = 6,
+             .low = -1e9,
+             .high = 1e9},
             {.name = "clip",
              .help = "a plane (point, then normal): whole cells beyond it are taken away",
              .count = 6},

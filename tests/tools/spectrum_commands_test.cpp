@@ -21,7 +21,7 @@ using testing::HasSubstr;
 // The bar of REFERENCES §6; a folder that it would write to is not made.
 constexpr const char* k_bar =
     "argil 1\nnew box 16 2 2 size 1 0.08 0.12\nselect edges angle 30\nsharpen 10\nlevels 1\nset young_modulus 1e6\n"
-    "pin where x < 1e-6\nsave bar.vtu\nexpect volume 17\n";
+    "pin where x < 1e-6\nsave bar.vtu\nexpect volume 17\nsample bar.csv from 0.1 0.04 0.06 to 0.9 0.04 0.06\n";
 
 class SpectrumCommands : public ArgilCalls {};
 

@@ -192,6 +192,20 @@ TEST(View, LegendHasRoomBesideTheModel) {
   EXPECT_GT(violet, yellow + 100);
 }
 
+TEST(View, KeyNamesLinesInTheirColourRightOfTheModel) {
+  Scene scene = scene_of(subdiv::box_grid(2, 1, 1, {2, 1, 1}));
+  scene.lines.push_back({sculpt::LineLook::inner_spring, {{{Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 1, 1)}}}});
+  PictureOptions how = options(640, 400);
+  const Picture without = renderer().render(scene, how);
+  scene.lines.back().name = "inner diagonals";
+  const Picture with = renderer().render(scene, how);
+  EXPECT_LT(covered_box(with)[2], covered_box(without)[2]);  // the model makes room
+  // The stroke of the key: at the right, 62 of 800 parts from the top, in the orange of the lines.
+  const std::uint8_t* p = &with.rgba[4 * static_cast<std::size_t>(46 * 640 + 610)];
+  EXPECT_GT(p[0], 200);
+  EXPECT_GT(p[0], 2 * p[2]);
+}
+
 TEST(View, FieldColoursFollowTheValues) {
   Scene scene = scene_of(subdiv::box_grid(2, 1, 1, {2, 1, 1}));
   std::vector<double> values(12, 1.0);

@@ -27,8 +27,7 @@ std::unique_ptr<sculpt::Session> run_body(const BodyArguments& arguments) {
   };
   if (is_session) {
     for (const io::SessionLine& line : io::read_session(arguments.input)) {
-      const std::string& name = line.tokens[0].text;
-      if (name != "save" && name != "render" && name != "expect" && name != "measure") session->run_line(line);
+      if (sculpt::find_command(line).effect != sculpt::Effect::output) session->run_line(line);
     }
   } else {
     run("open " + io::quote(input.filename().string()), arguments.input.string());

@@ -119,8 +119,7 @@ struct Body::Parts {
     session = std::make_unique<sculpt::Session>(options);
     if (scene.motion == Motion::session) {
       for (const io::SessionLine& line : io::parse_session(scene.session_text, scene.session_file.string())) {
-        const std::string& name = line.tokens[0].text;
-        if (name != "save" && name != "render" && name != "expect" && name != "measure") session->run_line(line);
+        if (sculpt::find_command(line).effect != sculpt::Effect::output) session->run_line(line);
       }
       if (session->document().empty())
         throw Error(ErrorCode::bad_input, "the session ends without a solid; it wants `new` or `open`",

@@ -25,6 +25,7 @@ struct Theme {
   Colour wire_on_clay, wire_on_field, wire_alone;
   Colour arrow, arrow_outline, pin, pin_outline;
   Colour overlay, axis_u, axis_v, axis_w, side, rest_side;
+  Colour edge_spring, face_spring, inner_spring, material_line;
   float shadow;  // opacity
 };
 
@@ -38,7 +39,9 @@ inline constexpr Theme k_dark_theme{colour(0x2B2F36),        colour(0x171A1E),
                                     colour(0x0E2A2A, 0.9F),  colour(0xF2EDE4, 0.70F),
                                     colour(0xF0655A),        colour(0x7CCB5B),
                                     colour(0x5AA2F5),        colour(0xF0A93C),
-                                    colour(0x5BD0CB),        0.85F};
+                                    colour(0x5BD0CB),        colour(0xF2EDE4),
+                                    colour(0x4FB6E8),        colour(0xF0A93C),
+                                    colour(0xFF7AB8),        0.85F};
 inline constexpr Theme k_light_theme{colour(0xF7F8FA),        colour(0xDCE0E5),
                                      colour(0x1E2126),        colour(0x5A616B),
                                      colour(0xFFFFFF, 0.85F), colour(0x3F6FA6, 0.65F),
@@ -49,7 +52,35 @@ inline constexpr Theme k_light_theme{colour(0xF7F8FA),        colour(0xDCE0E5),
                                      colour(0xFFFFFF, 0.9F),  colour(0x1E2126, 0.70F),
                                      colour(0xC7352B),        colour(0x3C8A1F),
                                      colour(0x2166C4),        colour(0xC9760A),
-                                     colour(0x0B807B),        0.40F};
+                                     colour(0x0B807B),        colour(0x2B2F36),
+                                     colour(0x1F7FB8),        colour(0xC9760A),
+                                     colour(0xB8246F),        0.40F};
+
+constexpr Colour line_colour(sculpt::LineLook look, const Theme& theme) {
+  switch (look) {
+    case sculpt::LineLook::axis_u:
+      return theme.axis_u;
+    case sculpt::LineLook::axis_v:
+      return theme.axis_v;
+    case sculpt::LineLook::axis_w:
+      return theme.axis_w;
+    case sculpt::LineLook::side:
+      return theme.side;
+    case sculpt::LineLook::rest_side:
+      return theme.rest_side;
+    case sculpt::LineLook::edge_spring:
+      return theme.edge_spring;
+    case sculpt::LineLook::face_spring:
+      return theme.face_spring;
+    case sculpt::LineLook::inner_spring:
+      return theme.inner_spring;
+    case sculpt::LineLook::material_line:
+      return theme.material_line;
+    case sculpt::LineLook::overlay:
+      break;
+  }
+  return theme.overlay;
+}
 
 /// A map of field values: eleven colours, a tenth apart; those between are linear.
 inline constexpr std::size_t k_map_size = 11;

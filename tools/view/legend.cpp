@@ -1,13 +1,10 @@
 #include "tools/view/legend.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include "sculpt/scene.h"
+#include "sculpt/shown_unit.h"
 
 namespace argil::view {
 
@@ -15,36 +12,7 @@ namespace {
 
 constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
 constexpr float k_bar_height = 250;
-
-/// The unit as written and how many of it one of the legend's is.
-struct Shown {
-  double per_value = 1;
-  std::string unit;
-};
-
-Shown shown_unit(const sculpt::SceneLegend& legend) {
-  if (legend.unit == "%") return {100, "%"};
-  constexpr std::array<std::string_view, 8> takes_prefix{"Pa", "N", "J", "m", "s", "W", "N/m", "m/s"};
-  const double largest = std::max(std::abs(legend.low), std::abs(legend.high));
-  if (largest == 0 || std::find(takes_prefix.begin(), takes_prefix.end(), legend.unit) == takes_prefix.end())
-    return {1, legend.unit};
-  constexpr std::array<const char*, 9> prefixes{"p", "n", "µ", "m", "", "k", "M", "G", "T"};
-  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest * 1.0000001) / 3)), -4, 4);
-  return {std::pow(1000.0, -thousands), prefixes[static_cast<std::size_t>(thousands + 4)] + legend.unit};
-}
-
-/// With a true minus sign, and as many decimals as the step needs.
-std::string written(double value, double step) {
-  if (std::abs(value) < 1e-9 * step) return "0";
-  const double largest = std::max(std::abs(value), step);
-  std::string text;
-  if (largest >= 1e6 || largest < 1e-4)
-    text = fmt::format("{:.3g}", value);
-  else
-    text = fmt::format("{:.{}f}", value, std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12));
-  if (text.front() == '-') text.replace(0, 1, "−");
-  return text;
-}
+constexpr float k_stroke = 30;  // of the key, long
 
 float bar_height(float pixel, int height) {
   return std::min(k_bar_height * pixel, 0.55F * static_cast<float>(height));
@@ -53,18 +21,19 @@ float bar_height(float pixel, int height) {
 }  // namespace
 
 std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
-  const Shown shown = shown_unit(legend);
+  const sculpt::ShownUnit shown =
+      sculpt::shown_unit(legend.unit, std::max(std::abs(legend.low), std::abs(legend.high)));
   const double low = legend.low * shown.per_value, high = legend.high * shown.per_value;
   const std::string suffix = shown.unit.empty() ? "" : " " + shown.unit;
   if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) {
     const double size = std::abs(high) > 0 ? std::pow(10.0, std::floor(std::log10(std::abs(high))) - 2) : 1.0;
-    return {{legend.high, written(high, size) + suffix}};
+    return {{legend.high, sculpt::tick_text(high, size) + suffix}};
   }
   const double step = sculpt::round_step(high - low, most);
   std::vector<Tick> ticks;
   for (double i = std::ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; ++i)
-    ticks.push_back({i * step / shown.per_value, written(i * step, step)});
-  if (ticks.empty()) ticks.push_back({legend.high, written(high, step)});
+    ticks.push_back({i * step / shown.per_value, sculpt::tick_text(i * step, step)});
+  if (ticks.empty()) ticks.push_back({legend.high, sculpt::tick_text(high, step)});
   ticks.back().text += suffix;
   return ticks;
 }
@@ -95,6 +64,28 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
                 theme.quiet_text, Align::right);
     if (part > 0.01 && part < 0.99)
       canvas.bar(left, y - 0.5F * pixel, 5 * pixel, pixel, 0, [](float) { return colour(0xFFFFFF, 0.45F); });
+  }
+}
+
+double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int width) {
+  float text = 0;
+  for (const sculpt::SceneLines& lines : scene.lines)
+    if (!lines.name.empty()) text = std::max(text, font.width(lines.name, k_tick_size * pixel));
+  return text == 0 ? 0 : static_cast<double>(text + (k_right + k_stroke + k_gap + 20) * pixel) / width;
+}
+
+void draw_key(Canvas& canvas, const sculpt::Scene& scene, const Theme& theme, float pixel, int width, int height) {
+  const float right = std::round(static_cast<float>(width) - k_right * pixel), left = right - k_stroke * pixel;
+  float y = k_top * pixel;
+  if (scene.legend) y += bar_height(pixel, height) + 30 * pixel;
+  for (const sculpt::SceneLines& lines : scene.lines) {
+    if (lines.name.empty()) continue;
+    const Colour tint = line_colour(lines.look, theme);
+    const float thick = (lines.look == sculpt::LineLook::overlay ? 1.2F : 3) * pixel;
+    canvas.bar(left, y - 0.5F * thick, right - left, thick, 0.5F * thick, [&](float) { return tint; });
+    canvas.text(left - k_gap * pixel, y + 0.36F * k_tick_size * pixel, k_tick_size * pixel, lines.name, theme.text,
+                Align::right);
+    y += 24 * pixel;
   }
 }
 

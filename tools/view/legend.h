@@ -1,5 +1,6 @@
 #pragma once
-// The bar of colours of a field, with title, unit and round ticks; and the labels of places.
+// The bar of colours of a field, with title, unit and round ticks; the key of lines that have names; and the labels
+// of places.
 
 #include <string>
 #include <vector>
@@ -23,6 +24,12 @@ struct Tick {
 
 void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme& theme, float pixel, int width,
                  int height);
+
+/// Part of the picture's width that the key takes on the right; 0 if no lines have a name.
+[[nodiscard]] double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int width);
+
+/// A stroke and a name for each set of lines that has one, at the right; below the legend where there is one.
+void draw_key(Canvas& canvas, const sculpt::Scene& scene, const Theme& theme, float pixel, int width, int height);
 
 /// A dot at the place and the text beside it; near the right side of the picture the text stands left of its dot.
 /// Of a hidden place only a shade is drawn.

@@ -98,8 +98,11 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const float small =
         std::min(static_cast<float>(options.width) / 1280, static_cast<float>(options.height) / 800);
     const float pixel = std::clamp(small, 0.75F, 5.0F);
-    const bool has_legend = scene.legend && options.width >= 160 && options.height >= 120;
-    const Camera camera = framing_camera(positions, options, margins(scene, options, pixel, has_legend));
+    const bool has_room = options.width >= 160 && options.height >= 120;  // for legend and key
+    const bool has_legend = scene.legend && has_room;
+    Margins free = margins(scene, options, pixel, has_legend);
+    if (has_room) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
+    const Camera camera = framing_camera(positions, options, free);
 
     context_.make_current();
     painter_.load(scene, place, options);
@@ -127,6 +130,7 @@ class OffscreenRenderer final : public sculpt::Renderer {
       }
     }
     if (has_legend) draw_legend(canvas, *scene.legend, theme, pixel, picture.width, picture.height);
+    if (has_room) draw_key(canvas, scene, theme, pixel, picture.width, picture.height);
     return picture;
   }
 

@@ -24,21 +24,25 @@ struct LineStyle {
 };
 
 LineStyle style_of(sculpt::LineLook look, const Theme& theme) {
+  const Colour tint = line_colour(look, theme);
   switch (look) {
     case sculpt::LineLook::overlay:
       break;
     case sculpt::LineLook::axis_u:
-      return {theme.axis_u, 1.2F, 1};
     case sculpt::LineLook::axis_v:
-      return {theme.axis_v, 1.2F, 1};
     case sculpt::LineLook::axis_w:
-      return {theme.axis_w, 1.2F, 1};
+      return {tint, 1.2F, 1};
     case sculpt::LineLook::side:
-      return {theme.side, 1.6F, 1};
     case sculpt::LineLook::rest_side:
-      return {theme.rest_side, 1.6F, 1};
+    case sculpt::LineLook::material_line:
+      return {tint, 1.6F, 1};
+    case sculpt::LineLook::edge_spring:
+      return {tint, 1.2F, 4};
+    case sculpt::LineLook::face_spring:
+    case sculpt::LineLook::inner_spring:
+      return {tint, 0.8F, 4};
   }
-  return {theme.overlay};
+  return {tint};
 }
 
 void set_colour(const Gl& gl, GLint place, const Colour& c) {
