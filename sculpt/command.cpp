@@ -245,7 +245,7 @@ const std::vector<Group>& groups() {
       {"Physics", {&simulation_commands}},
       {"Force tools", {&tool_commands}},
       {"History", {&history_commands}},
-      {"Measuring, saving, pictures", {&output_commands, &sampling_commands}},
+      {"Measuring, saving, pictures", {&output_commands, &render_commands, &sampling_commands}},
   };
   return all;
 }

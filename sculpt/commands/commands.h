@@ -21,7 +21,8 @@ std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator guard step solve commit
 std::vector<Command> tool_commands();        // tool stroke
 std::vector<Command> history_commands();     // undo redo
-std::vector<Command> output_commands();      // measure expect save render
+std::vector<Command> output_commands();      // measure expect save
+std::vector<Command> render_commands();      // render
 std::vector<Command> sampling_commands();    // sample plot
 
 }  // namespace argil::sculpt

@@ -3,28 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/image.h"
 #include "io/volume_formats.h"
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
+#include "sculpt/commands/reference_argument.h"
 #include "sculpt/export.h"
 #include "sculpt/measures.h"
-#include "sculpt/picture.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
-#include "sculpt/surface_look.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
 
 namespace {
-
-std::shared_ptr<const ReferenceShape> reference_of(const Session& session, const Arguments& arguments) {
-  if (!arguments.has("reference")) return nullptr;
-  const ComparedMesh mesh =
-      read_compared_mesh(session.path_to_read(arguments.word("reference")), session.document().limits.cells);
-  return std::make_shared<const ReferenceShape>(mesh);
-}
 
 double measured_value(const Session& session, const Arguments& arguments) {
   require_solid(session);
@@ -100,143 +91,6 @@ void save(Session& session, const Arguments& arguments) {
     session.print(note);
 }
 
-// One picture of two halves: the control cage alone, and the scene.
-Picture with_cage_beside(Renderer& renderer, const Document& document, const Scene& scene, PictureOptions options) {
-  Scene cage = scene;
-  cage.draw_surface = false;
-  cage.legend.reset();
-  cage.cage_lines.clear();
-  cage.cage_points.clear();
-  add_cage(cage, document.solid(), document.positions(), true);
-  PictureOptions of_cage = options;
-  of_cage.width = options.width / 2;
-  options.width -= of_cage.width;
-  of_cage.contact_shadow = false;
-  const Picture left = renderer.render(cage, of_cage), right = renderer.render(scene, options);
-  Picture both{.width = left.width + right.width, .height = left.height, .rgba = {}, .cell_ids = {}};
-  for (int y = 0; y < both.height; ++y)
-    for (const Picture* half : {&left, &right}) {
-      const auto row = half->rgba.begin() + std::ptrdiff_t{4} * half->width * y;
-      both.rgba.insert(both.rgba.end(), row, row + std::ptrdiff_t{4} * half->width);
-    }
-  return both;
-}
-
-void render(Session& session, const Arguments& arguments) {
-  require_solid(session);
-  PictureRequest request;
-  request.field = arguments.word("field", "");
-  if (arguments.has("range")) {
-    const auto& range = arguments.numbers("range");
-    if (!(range[0] < range[1])) throw Error(ErrorCode::bad_input, "a range rises: `range 0 0.1`");
-    request.range = {range[0], range[1]};
-    if (request.field.empty()) throw Error(ErrorCode::bad_input, "a range is of a field; add `field strain`");
-  }
-  if (arguments.has("colours")) {
-    const std::string& map = arguments.word("colours");
-    request.colours = map == "cividis"    ? ColourMap::cividis
-                      : map == "balanced" ? ColourMap::balanced
-                                          : ColourMap::viridis;
-    if (request.field.empty())
-      throw Error(ErrorCode::bad_input, "colours are those of a field; add `field strain`");
-  }
-  if (arguments.has("reference") && request.field != "error")
-    throw Error(ErrorCode::bad_input, "a reference is for `field error`; to see its edges, write `overlay FILE`");
-  request.reference = reference_of(session, arguments);
-  request.volume = arguments.has("volume");
-  if (request.volume && request.field.empty())
-    throw Error(ErrorCode::bad_input, "a volume is of a field; add `field strain`");
-  if (request.field == "error" && !request.reference)
-    throw Error(ErrorCode::bad_input, "an error is against another solution; add `reference FILE`");
-  if (arguments.has("opacity") && !request.volume)
-    throw Error(ErrorCode::bad_input, "opacity is that of a volume; add `volume field strain`");
-  request.opacity = arguments.number("opacity", 1);
-  if (arguments.has("frames"))
-    request.frames = arguments.word("frames") == "rotated" ? FrameKind::rotated : FrameKind::tangent;
-  if (arguments.has("corner")) request.corner = static_cast<std::uint32_t>(arguments.integer("corner", 0));
-  if (arguments.has("overlay")) {
-    if (arguments.word("overlay") == "rest")
-      request.overlay_rest = true;
-    else
-      request.overlay =
-          read_compared_mesh(session.path_to_read(arguments.word("overlay")), session.document().limits.cells)
-              .surface;
-  }
-  if (arguments.has("underlay")) {
-    for (const char* other : {"volume", "clip", "frames", "style", "corner", "net", "reference", "colours"})
-      if (arguments.has(other))
-        throw Error(
-            ErrorCode::bad_input,
-            fmt::format("an underlay takes the place of the surface, so that {0} has nothing to show; leave "
-                        "out {0} or the underlay",
-                        other));
-    request.underlay = std::make_shared<const ComparedMesh>(
-        read_compared_mesh(session.path_to_read(arguments.word("underlay")), session.document().limits.cells));
-  }
-  request.springs = arguments.has("springs");
-  if (request.springs && !request.underlay)
-    for (const char* other : {"field", "volume", "frames", "style", "corner", "net"})
-      if (arguments.has(other))
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("springs take the place of the surface, so that {0} has nothing to show; leave out "
-                                "{0} or springs",
-                                other));
-  if (arguments.has("line")) {
-    const std::vector<double>& ends = arguments.numbers("line");
-    request.line = {Eigen::Vector3d(ends[0], ends[1], ends[2]), Eigen::Vector3d(ends[3], ends[4], ends[5])};
-    if ((*request.line)[0] == (*request.line)[1])
-      throw Error(ErrorCode::bad_input,
-                  "the two ends of the line are the same point; give two, as in `line 0 0.3 "
-                  "0.05 0.6 0.3 0.05`");
-  }
-  if (arguments.has("clip")) {
-    const auto& plane = arguments.numbers("clip");
-    request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
-    if (plane[3] == 0 && plane[4] == 0 && plane[5] == 0)
-      throw Error(ErrorCode::bad_input, "the normal of the clip plane is zero; `clip 0 0 0 1 0 0` looks along x");
-  }
-  if (arguments.has("from") && arguments.vector("from").isZero(0))
-    throw Error(ErrorCode::bad_input, "the direction to the eye is zero; `from 0 -1 0` looks at the front");
-  if (arguments.has("net_steps") && !arguments.has("net"))
-    throw Error(ErrorCode::bad_input, "net_steps are those of a cell's net; add `net CELL`");
-  const std::string style = arguments.word("style", "solid");
-  request.style = style == "wireframe"            ? PictureStyle::wireframe
-                  : style == "boundary_wireframe" ? PictureStyle::boundary_wireframe
-                                                  : PictureStyle::solid;
-  request.cage = arguments.has("cage");
-  request.marks = !arguments.has("plain");
-  if (session.tool_force()) request.tool_force = {session.tool_force()->at, session.tool_force()->force};
-  if (arguments.has("net")) request.net_cell = static_cast<std::uint32_t>(arguments.integer("net", 0));
-  request.net_steps = static_cast<int>(arguments.integer("net_steps", 4));
-  PictureOptions options;
-  if (arguments.has("size")) {
-    options.width = static_cast<int>(arguments.numbers("size")[0]);
-    options.height = static_cast<int>(arguments.numbers("size")[1]);
-  }
-  options.view_from = arguments.vector("from", options.view_from);
-  options.zoom = arguments.number("zoom", 1);
-  // The cells of both sides of a translucent body would hide it.
-  const std::string wire = arguments.word("wire", request.volume ? "control" : request.underlay ? "none" : "cells");
-  options.wireframe = wire != "none";
-  request.underlay_wires = request.underlay && wire == "cells";
-  request.control_wire = wire == "control";
-  options.light_theme = arguments.has("light");
-  const std::string& name = arguments.word("file");
-  if (!name.ends_with(".png"))
-    throw Error(ErrorCode::bad_input, fmt::format("a picture is a .png file, not '{}'", name));
-  const auto path = session.path_to_write(name);
-  Renderer* renderer = session.options().renderer;
-  if (!renderer) {
-    ++session.skipped_pictures;
-    session.print(fmt::format("{} skipped: there is no renderer", name));
-    return;
-  }
-  const Scene scene = make_scene(session.document(), request);
-  const Picture picture = arguments.has("beside") ? with_cage_beside(*renderer, session.document(), scene, options)
-                                                  : renderer->render(scene, options);
-  io::write_png(path, picture.width, picture.height, picture.rgba);
-}
-
 }  // namespace
 
 std::vector<Command> output_commands() {
@@ -249,12 +103,6 @@ std::vector<Command> output_commands() {
                                .required = true,
                                .choices = measures};
   const Parameter at{.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3};
-  const Parameter reference{.name = "reference",
-                            .type = ArgumentType::text,
-                            .help =
-                                "of an error: a mesh file beneath the session's own folder. With a point field "
-                                "displacement, as save writes it, it is compared at common material points, else "
-                                "by the distance to its surface"};
   const Parameter where{
       .name = "where", .type = ArgumentType::expression, .help = "only these nodes (reactions: control vertices)"};
   return {
@@ -264,7 +112,7 @@ std::vector<Command> output_commands() {
                       at,
                       {.name = "as", .type = ArgumentType::text, .help = "its name in the summary"},
                       where,
-                      reference},
+                      reference_parameter()},
        .example = "measure displacement_z at 0.3 0.3 0.05",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "gravity 0 0 -9.81", "pin where z < 0.001",
                   "step 5"},
@@ -282,7 +130,7 @@ std::vector<Command> output_commands() {
                       {.name = "below", .help = "it must be smaller"},
                       at,
                       where,
-                      reference},
+                      reference_parameter()},
        .example = "expect volume 0.036 within 1%",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .effect = Effect::output,
@@ -317,93 +165,6 @@ std::vector<Command> output_commands() {
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1"},
        .effect = Effect::output,
        .run = save},
-      {.name = "render",
-       .summary = "Makes a picture of the solid as it is now.",
-       .parameters =
-           {{.name = "file",
-             .type = ArgumentType::text,
-             .help = "a .png beneath the folder given with --out",
-             .positional = true,
-             .required = true},
-            {.name = "field",
-             .type = ArgumentType::word,
-             .help = "colours, with a legend",
-             .choices = shown_field_names()},
-            {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
-            {.name = "colours",
-             .type = ArgumentType::word,
-             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis",
-             .choices = {"viridis", "cividis", "balanced"}},
-            reference,
-            {.name = "volume",
-             .help = "the field inside as a translucent volume, in place of the surface",
-             .flag = true},
-            {.name = "opacity", .help = "of the volume; 1 is usual", .low = 0.01, .high = 100},
-            {.name = "frames",
-             .type = ArgumentType::word,
-             .help = "axes u, v, w of each hexahedron: tangent stretch and shear with it, rotated only turn",
-             .choices = {"tangent", "rotated"}},
-            {.name = "corner",
-             .type = ArgumentType::integer,
-             .help = "instead, the most sheared corner at this vertex of the finest level: its sides to a "
-                     "and b, and to a′ and b′ without shear",
-             .low = 0,
-             .high = 4e9},
-            {.name = "overlay",
-             .type = ArgumentType::text,
-             .help = "edges of another mesh: a volume or surface file, or rest for the solid at rest"},
-            {.name = "underlay",
-             .type = ArgumentType::text,
-             .help = "another mesh, a volume file, as the surface under the edges of the solid; of a file with a "
-                     "point field displacement, as save writes it, `field displacement` shows that"},
-            {.name = "springs",
-             .help = "the springs of a mass–spring model by kind, in place of the surface",
-             .flag = true},
-            {.name = "line",
-             .help = "a straight line of the solid at rest, from one point to another, where it is now",
-             .unit = "m",
-             .count = 6,
-             .low = -1e9,
-             .high = 1e9},
-            {.name = "clip",
-             .help = "a plane (point, then normal): whole cells beyond it are taken away",
-             .count = 6},
-            {.name = "style",
-             .type = ArgumentType::word,
-             .help = "how",
-             .choices = {"solid", "wireframe", "boundary_wireframe"}},
-            {.name = "cage", .help = "with the control cage", .flag = true},
-            {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
-            {.name = "plain", .help = "without arrows and pins", .flag = true},
-            {.name = "wire",
-             .type = ArgumentType::word,
-             .help = "edges drawn: of the finest cells, of the control cells, none",
-             .choices = {"cells", "control", "none"}},
-            {.name = "light", .help = "on light ground", .flag = true},
-            {.name = "size",
-             .type = ArgumentType::integer,
-             .help = "width and height",
-             .unit = "px",
-             .count = 2,
-             .low = 1,
-             .high = 4096},
-            {.name = "from", .help = "direction from the solid to the eye", .count = 3},
-            {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
-            {.name = "net",
-             .type = ArgumentType::integer,
-             .help = "this cell of the finest level in its 4×4×4 net instead",
-             .low = 0,
-             .high = 4e9},
-            {.name = "net_steps",
-             .type = ArgumentType::integer,
-             .help = "1 the cell, 2 face, 3 edge, 4 vertex neighbours",
-             .low = 1,
-             .high = 4}},
-       .example = "render chair.png field strain",
-       .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "pin where x < 0.01", "gravity 0 0 -9.81",
-                  "step 10"},
-       .effect = Effect::output,
-       .run = render},
   };
 }
 
