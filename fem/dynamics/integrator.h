@@ -57,9 +57,9 @@ class Integrator {
   /// density is implicit in implicit methods and in central difference, damping by stiffness in implicit ones.
   /// The published method takes as many parts as METHODS §4 asks for, at most 500 a step.
   /// Stops after `newton_cap` iterations without complaint; the report tells.
-  /// @throws Error (not_converged) if a value is not finite or a step has too many parts, (unsupported) if the
-  /// published method finds the tangent at rest not symmetric, (bad_input) for a time step that is not positive;
-  /// `state` is then as it was.
+  /// @throws Error (not_converged) if a value is not finite, (limit_exceeded) if a published step has too many
+  /// parts, (unsupported) if the published method finds the tangent at rest not symmetric, (bad_input) for a time
+  /// step that is not positive; `state` is then as it was.
   StepReport step(const Loads& loads, BodyState& state, double time_step, const StepOptions& options,
                   Clock clock = nullptr);
 

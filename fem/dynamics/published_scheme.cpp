@@ -50,7 +50,7 @@ StepReport Integrator::Impl::published_step(const Loads& loads, BodyState& state
   const double parts = std::max(1.0, std::ceil(h / by.longest_step * (1 - 1e-12)));
   if (!(parts <= k_most_parts))
     throw Error(
-        ErrorCode::not_converged,
+        ErrorCode::limit_exceeded,
         fmt::format("expected at most {:.0f} parts of a published step, found that {:.6g} s takes {:.3g} parts "
                     "of {:.3g} s; take shorter steps, a softer body or an implicit integrator",
                     k_most_parts, h, parts, by.longest_step));

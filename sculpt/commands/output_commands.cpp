@@ -11,6 +11,7 @@
 #include "sculpt/measures.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
+#include "sculpt/surface_look.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {

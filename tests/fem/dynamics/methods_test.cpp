@@ -239,7 +239,7 @@ TEST(Methods, PublishedSchemeRefusesStepsOfTooManyParts) {
     static_cast<void>(integrator.step({}, solid.state, 1, tight(Method::published)));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::not_converged);
+    EXPECT_EQ(error.code(), ErrorCode::limit_exceeded);
     EXPECT_THAT(error.what(), testing::HasSubstr("implicit"));
   }
   EXPECT_EQ(solid.state.positions, before.positions);
