@@ -189,8 +189,9 @@ class Block {
     Integrator integrator(solid_.system);
     StepOptions options;
     options.method = method;
+    solid_.state = {};
     solid_.state.positions = solid_.rest;
-    solid_.state.velocities.setZero();
+    solid_.state.velocities.setZero(3, solid_.rest.cols());
     Motion motion;
     const std::clock_t start = std::clock();
     for (int sample = 0; sample < k_samples; ++sample) {
