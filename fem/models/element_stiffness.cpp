@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "fem/models/lanes.h"
+#include "fem/models/linear.h"
 #include "fem/parallel.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -138,8 +139,55 @@ Eigen::MatrixXd element_stiffness(const ElementBlock& block, std::size_t element
   return 0.5 * (stiffness + stiffness.transpose());
 }
 
+namespace {
+
+/// These elements as a block of their own, with what stiffness depends on.
+ElementBlock some_elements(const ElementBlock& block, const std::vector<std::uint32_t>& elements) {
+  const auto nodes = static_cast<std::size_t>(block.kind->node_count);
+  const auto points = static_cast<std::size_t>(block.kind->point_count);
+  ElementBlock result;
+  result.kind = block.kind;
+  const auto append = [](auto& to, const auto& from, std::size_t element, std::size_t count) {
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(element * count);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  for (const std::uint32_t e : elements) {
+    append(result.nodes, block.nodes, e, nodes);
+    append(result.origins, block.origins, e, 1);
+    append(result.inverse_rest_jacobians, block.inverse_rest_jacobians, e, points);
+    append(result.volumes, block.volumes, e, points);
+    append(result.mu, block.mu, e, points);
+    append(result.lambda, block.lambda, e, points);
+  }
+  return result;
+}
+
+FillMatrices fill_elastic(const Eigen::Matrix3Xd& rest_nodes, Formulation formulation) {
+  return [&rest_nodes, formulation](const ElementBlock& distinct, double* matrices) {
+    const auto size = 3 * static_cast<std::size_t>(distinct.kind->node_count);
+    if (formulation == Formulation::incompatible_modes) {
+      parallel_for(distinct.element_count(), 1, [&](std::size_t e) {
+        const Eigen::MatrixXd k = element_stiffness(distinct, e, rest_nodes, formulation);
+        std::copy(k.data(), k.data() + size * size, matrices + e * size * size);
+      });
+      return;
+    }
+    make_linear_as({&distinct, 1}, rest_nodes, formulation)
+        ->tangent(rest_nodes, Projection::none)
+        ->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& k) {
+          matrices = std::copy(k.data(), k.data() + size * size, matrices);
+        });
+  };
+}
+
+}  // namespace
+
 ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                                    Formulation formulation)
+    : ElementStiffness(blocks, rest_nodes, fill_elastic(rest_nodes, formulation)) {}
+
+ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                                   const FillMatrices& fill)
     : blocks_(blocks), shared_(blocks.size()) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const ElementBlock& block = blocks[b];
@@ -156,12 +204,8 @@ ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const E
       if (is_new) shared.representatives.push_back(static_cast<std::uint32_t>(e));
       shared.index.push_back(found->second);
     }
-    const std::size_t entries = shared.size * shared.size;
-    shared.matrices.resize(shared.representatives.size() * entries);
-    parallel_for(shared.representatives.size(), 1, [&](std::size_t i) {
-      const Eigen::MatrixXd k = element_stiffness(block, shared.representatives[i], rest_nodes, formulation);
-      std::copy(k.data(), k.data() + entries, shared.matrices.data() + i * entries);
-    });
+    shared.matrices.resize(shared.representatives.size() * shared.size * shared.size);
+    fill(some_elements(block, shared.representatives), shared.matrices.data());
   }
 }
 
