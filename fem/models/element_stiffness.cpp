@@ -227,8 +227,8 @@ ARGIL_LANES_INLINE void store_four(double* to, const Lanes& x) {
 }
 
 /// Nothing is reduced across lanes: each row sums its columns in order. Small matrices go eight rows at a time,
-/// with the sums in registers; large ones, which come from memory, three columns at a time, each read from end to
-/// end.
+/// with the sums in registers; large ones, which come from memory, column after column, so that they are read from
+/// end to end without a jump.
 ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, const double* v, double* result) {
   std::size_t row = 0;
   const std::size_t whole = size / 8 * 8;
@@ -244,14 +244,11 @@ ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, co
     }
   } else {
     for (std::size_t i = 0; i < whole; ++i) result[i] = 0;
-    for (std::size_t j = 0; j < size; j += 3) {  // rows of three axes
-      const double *first = matrix + j * size, *second = first + size, *third = second + size;
-      for (row = 0; row < whole; row += 4) {
-        Lanes sum = load_four(result + row);
-        sum += load_four(first + row) * v[j];
-        sum += load_four(second + row) * v[j + 1];
-        sum += load_four(third + row) * v[j + 2];
-        store_four(result + row, sum);
+    for (std::size_t j = 0; j < size; ++j) {
+      const double* column = matrix + j * size;
+      for (row = 0; row < whole; row += 8) {
+        store_four(result + row, load_four(result + row) + load_four(column + row) * v[j]);
+        store_four(result + row + 4, load_four(result + row + 4) + load_four(column + row + 4) * v[j]);
       }
     }
   }
