@@ -270,6 +270,38 @@ __attribute__((target("avx2"), flatten)) void multiply_avx2(const double* m, std
 }
 #endif
 
+template <std::size_t Rows>
+ARGIL_LANES_INLINE void multiply_some_rows(const double* matrix, std::size_t size, const FourDoubles* v,
+                                           FourDoubles* result) {
+  Lanes sums[Rows];
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < Rows; ++i) sums[i] = broadcast(0);
+  for (std::size_t j = 0; j < size; ++j) {
+    const Lanes value = load(v + j);
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < Rows; ++i) sums[i] += matrix[j * size + i] * value;
+  }
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < Rows; ++i) store(result + i, sums[i]);
+}
+/// Six rows at a time, with the sums in registers.
+ARGIL_LANES_INLINE void multiply_four(const double* matrix, std::size_t size, const FourDoubles* v,
+                                      FourDoubles* result) {
+  std::size_t row = 0;
+  for (; row + 6 <= size; row += 6) multiply_some_rows<6>(matrix + row, size, v, result + row);
+  for (; row < size; ++row) multiply_some_rows<1>(matrix + row, size, v, result + row);
+}
+__attribute__((flatten)) void multiply_four_baseline(const double* m, std::size_t size, const FourDoubles* v,
+                                                     FourDoubles* result) {
+  multiply_four(m, size, v, result);
+}
+#if defined(__x86_64__)
+__attribute__((target("avx2"), flatten)) void multiply_four_avx2(const double* m, std::size_t size,
+                                                                 const FourDoubles* v, FourDoubles* result) {
+  multiply_four(m, size, v, result);
+}
+#endif
+
 }  // namespace
 
 void multiply_stiffness(const double* matrix, std::size_t size, const double* v, double* result) {
@@ -277,6 +309,15 @@ void multiply_stiffness(const double* matrix, std::size_t size, const double* v,
   static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_avx2 : multiply_baseline;
 #else
   static const auto chosen = multiply_baseline;
+#endif
+  chosen(matrix, size, v, result);
+}
+
+void multiply_stiffness_of_four(const double* matrix, std::size_t size, const FourDoubles* v, FourDoubles* result) {
+#if defined(__x86_64__)
+  static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_four_avx2 : multiply_four_baseline;
+#else
+  static const auto chosen = multiply_four_baseline;
 #endif
   chosen(matrix, size, v, result);
 }

@@ -13,6 +13,7 @@
 
 #include "fem/element_block.h"
 #include "fem/models/formulation.h"
+#include "fem/models/lanes.h"
 
 namespace argil::fem {
 
@@ -60,6 +61,9 @@ class ElementStiffness {
 /// result = K v for a matrix of `size` rows, column by column: the same bits with and without AVX. Distinct large
 /// matrices stream at the speed of memory.
 void multiply_stiffness(const double* matrix, std::size_t size, const double* v, double* result);
+
+/// The same for one matrix and four vectors side by side, v and result at [row]: the bits of multiply_stiffness().
+void multiply_stiffness_of_four(const double* matrix, std::size_t size, const FourDoubles* v, FourDoubles* result);
 
 /// K_e of one element, symmetric, from its rest positions (3 x nodes of the table) and materials, 3n x 3n.
 [[nodiscard]] Eigen::MatrixXd element_stiffness(const ElementBlock& block, std::size_t element,

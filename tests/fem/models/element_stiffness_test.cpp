@@ -64,8 +64,19 @@ TEST(ElementStiffness, ProductIsThatOfTheMatrix) {
     const Eigen::VectorXd v =
         Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::cos(static_cast<double>(i)); });
     Eigen::VectorXd result(n);
+    std::vector<double> one(size);
     multiply_stiffness(k.data(), size, v.data(), result.data());
     EXPECT_LE((result - k * v).cwiseAbs().maxCoeff(), 1e-12);
+    std::vector<FourDoubles> four(size), products(size);
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      for (std::size_t i = 0; i < size; ++i) four[i].values[lane] = v[static_cast<Eigen::Index>((i + lane) % size)];
+    multiply_stiffness_of_four(k.data(), size, four.data(), products.data());
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      for (std::size_t i = 0; i < size; ++i) one[i] = four[i].values[lane];
+      multiply_stiffness(k.data(), size, one.data(), result.data());
+      for (std::size_t i = 0; i < size; ++i)  // every bit
+        EXPECT_EQ(products[i].values[lane], result[static_cast<Eigen::Index>(i)]);
+    }
   }
 }
 
