@@ -1,9 +1,6 @@
 #include "fem/models/corotational_kernels.h"
 
-#include "fem/models/packet_points.h"
-#include "fem/models/shapes/dense_shape.h"
-#include "fem/models/shapes/tricubic_shape.h"
-#include "fem/models/shapes/trilinear_shape.h"
+#include "fem/models/packet_kernel.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -128,52 +125,11 @@ struct Product {
   }
 };
 
-template <class Operation, class Shape>
-__attribute__((flatten)) void run_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
-  Operation::template run<Shape, Baseline>(a, begin, end);
-}
-#if defined(__x86_64__)
-template <class Operation, class Shape>
-__attribute__((target("avx2"), flatten)) void run_avx2(const PacketArguments& a, std::size_t begin,
-                                                       std::size_t end) {
-  Operation::template run<Shape, Avx2>(a, begin, end);
-}
-#endif
-
-template <class Shape>
-CorotationalKernels kernels_for(Instructions instructions) {
-#if defined(__x86_64__)
-  if (instructions == Instructions::best && __builtin_cpu_supports("avx2"))
-    return {run_avx2<Energy, Shape>, run_avx2<Forces, Shape>, run_avx2<TangentAtState, Shape>,
-            run_avx2<Product, Shape>};
-#endif
-  (void)instructions;
-  return {run_baseline<Energy, Shape>, run_baseline<Forces, Shape>, run_baseline<TangentAtState, Shape>,
-          run_baseline<Product, Shape>};
-}
-
 }  // namespace
 
 CorotationalKernels corotational_kernels(const ElementKind& kind, Instructions instructions) {
-  if (&kind == &trilinear_hexahedron()) return kernels_for<TrilinearShape>(instructions);
-  if (&kind == &pyramid()) return kernels_for<PyramidShape>(instructions);
-  if (&kind == &bspline_hexahedron()) return kernels_for<TricubicShape>(instructions);
-  return kernels_for<DenseShape>(instructions);
-}
-
-void linear_tangent(const PacketArguments& a, std::size_t begin_packet, std::size_t end_packet) {
-  const std::size_t points = static_cast<std::size_t>(a.kind->point_count);
-  for (std::size_t packet = begin_packet; packet < end_packet; ++packet)
-    for (std::size_t p = 0; p < points; ++p) {
-      const PointMaterial m = material(a, packet, p, points);
-      const std::size_t index = packet * points + p;
-      const Lanes volume = load(a.volumes + index);
-      FourDoubles* to = a.tangent + index * k_tangent_entries;
-      for (int i = 0; i < 9; ++i) store(to + i, broadcast(i % 4 == 0));
-      for (int i = 0; i < 6; ++i) store(to + 9 + i, i < 3 ? -m.mu * volume : broadcast(0));
-      store(to + 15, 2.0 * m.mu * volume);
-      store(to + 16, m.lambda * volume);
-    }
+  return {packet_kernel<Energy>(kind, instructions), packet_kernel<Forces>(kind, instructions),
+          packet_kernel<TangentAtState>(kind, instructions), packet_kernel<Product>(kind, instructions)};
 }
 
 }  // namespace argil::fem

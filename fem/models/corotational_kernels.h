@@ -24,6 +24,7 @@ struct PacketArguments {
   const double* mu = nullptr;              // as in ElementBlock
   const double* lambda = nullptr;
   const double* x = nullptr;        // 3 × nodes: positions, or directions for `product`
+  const double* rest = nullptr;     // 3 × nodes, rest positions: for linear_kernels.h
   bool clamp_twist = false;         // `tangent`: make the Hessian positive semi-definite
   FourDoubles* tangent = nullptr;   // [(packet * point_count + point) * k_tangent_entries]
   FourDoubles* slots = nullptr;     // [(packet * node_count + node) * 3 + axis]
@@ -43,9 +44,6 @@ enum class Instructions { best, baseline };
 
 [[nodiscard]] CorotationalKernels corotational_kernels(const ElementKind& kind,
                                                        Instructions instructions = Instructions::best);
-
-/// Tangent of linear elasticity: the corotational one at rest, whatever x is.
-void linear_tangent(const PacketArguments& arguments, std::size_t begin_packet, std::size_t end_packet);
 
 /// The symmetric 3n×3n matrices of one packet's elements from its tangent, entry (row, column) at [row * 3n +
 /// column]; at most 64 nodes.

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "fem/models/lanes.h"
+#include "fem/models/linear.h"
 #include "fem/parallel.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -138,8 +139,55 @@ Eigen::MatrixXd element_stiffness(const ElementBlock& block, std::size_t element
   return 0.5 * (stiffness + stiffness.transpose());
 }
 
+namespace {
+
+/// These elements as a block of their own, with what stiffness depends on.
+ElementBlock some_elements(const ElementBlock& block, const std::vector<std::uint32_t>& elements) {
+  const auto nodes = static_cast<std::size_t>(block.kind->node_count);
+  const auto points = static_cast<std::size_t>(block.kind->point_count);
+  ElementBlock result;
+  result.kind = block.kind;
+  const auto append = [](auto& to, const auto& from, std::size_t element, std::size_t count) {
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(element * count);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  for (const std::uint32_t e : elements) {
+    append(result.nodes, block.nodes, e, nodes);
+    append(result.origins, block.origins, e, 1);
+    append(result.inverse_rest_jacobians, block.inverse_rest_jacobians, e, points);
+    append(result.volumes, block.volumes, e, points);
+    append(result.mu, block.mu, e, points);
+    append(result.lambda, block.lambda, e, points);
+  }
+  return result;
+}
+
+FillMatrices fill_elastic(const Eigen::Matrix3Xd& rest_nodes, Formulation formulation) {
+  return [&rest_nodes, formulation](const ElementBlock& distinct, double* matrices) {
+    const auto size = 3 * static_cast<std::size_t>(distinct.kind->node_count);
+    if (formulation == Formulation::incompatible_modes) {
+      parallel_for(distinct.element_count(), 1, [&](std::size_t e) {
+        const Eigen::MatrixXd k = element_stiffness(distinct, e, rest_nodes, formulation);
+        std::copy(k.data(), k.data() + size * size, matrices + e * size * size);
+      });
+      return;
+    }
+    make_linear_as({&distinct, 1}, rest_nodes, formulation)
+        ->tangent(rest_nodes, Projection::none)
+        ->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& k) {
+          matrices = std::copy(k.data(), k.data() + size * size, matrices);
+        });
+  };
+}
+
+}  // namespace
+
 ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                                    Formulation formulation)
+    : ElementStiffness(blocks, rest_nodes, fill_elastic(rest_nodes, formulation)) {}
+
+ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                                   const FillMatrices& fill)
     : blocks_(blocks), shared_(blocks.size()) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const ElementBlock& block = blocks[b];
@@ -156,12 +204,8 @@ ElementStiffness::ElementStiffness(std::span<const ElementBlock> blocks, const E
       if (is_new) shared.representatives.push_back(static_cast<std::uint32_t>(e));
       shared.index.push_back(found->second);
     }
-    const std::size_t entries = shared.size * shared.size;
-    shared.matrices.resize(shared.representatives.size() * entries);
-    parallel_for(shared.representatives.size(), 1, [&](std::size_t i) {
-      const Eigen::MatrixXd k = element_stiffness(block, shared.representatives[i], rest_nodes, formulation);
-      std::copy(k.data(), k.data() + entries, shared.matrices.data() + i * entries);
-    });
+    shared.matrices.resize(shared.representatives.size() * shared.size * shared.size);
+    fill(some_elements(block, shared.representatives), shared.matrices.data());
   }
 }
 
@@ -183,8 +227,8 @@ ARGIL_LANES_INLINE void store_four(double* to, const Lanes& x) {
 }
 
 /// Nothing is reduced across lanes: each row sums its columns in order. Small matrices go eight rows at a time,
-/// with the sums in registers; large ones, which come from memory, three columns at a time, each read from end to
-/// end.
+/// with the sums in registers; large ones, which come from memory, column after column, so that they are read from
+/// end to end without a jump.
 ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, const double* v, double* result) {
   std::size_t row = 0;
   const std::size_t whole = size / 8 * 8;
@@ -200,14 +244,11 @@ ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, co
     }
   } else {
     for (std::size_t i = 0; i < whole; ++i) result[i] = 0;
-    for (std::size_t j = 0; j < size; j += 3) {  // rows of three axes
-      const double *first = matrix + j * size, *second = first + size, *third = second + size;
-      for (row = 0; row < whole; row += 4) {
-        Lanes sum = load_four(result + row);
-        sum += load_four(first + row) * v[j];
-        sum += load_four(second + row) * v[j + 1];
-        sum += load_four(third + row) * v[j + 2];
-        store_four(result + row, sum);
+    for (std::size_t j = 0; j < size; ++j) {
+      const double* column = matrix + j * size;
+      for (row = 0; row < whole; row += 8) {
+        store_four(result + row, load_four(result + row) + load_four(column + row) * v[j]);
+        store_four(result + row + 4, load_four(result + row + 4) + load_four(column + row + 4) * v[j]);
       }
     }
   }
@@ -229,6 +270,38 @@ __attribute__((target("avx2"), flatten)) void multiply_avx2(const double* m, std
 }
 #endif
 
+template <std::size_t Rows>
+ARGIL_LANES_INLINE void multiply_some_rows(const double* matrix, std::size_t size, const FourDoubles* v,
+                                           FourDoubles* result) {
+  Lanes sums[Rows];
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < Rows; ++i) sums[i] = broadcast(0);
+  for (std::size_t j = 0; j < size; ++j) {
+    const Lanes value = load(v + j);
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < Rows; ++i) sums[i] += matrix[j * size + i] * value;
+  }
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < Rows; ++i) store(result + i, sums[i]);
+}
+/// Six rows at a time, with the sums in registers.
+ARGIL_LANES_INLINE void multiply_four(const double* matrix, std::size_t size, const FourDoubles* v,
+                                      FourDoubles* result) {
+  std::size_t row = 0;
+  for (; row + 6 <= size; row += 6) multiply_some_rows<6>(matrix + row, size, v, result + row);
+  for (; row < size; ++row) multiply_some_rows<1>(matrix + row, size, v, result + row);
+}
+__attribute__((flatten)) void multiply_four_baseline(const double* m, std::size_t size, const FourDoubles* v,
+                                                     FourDoubles* result) {
+  multiply_four(m, size, v, result);
+}
+#if defined(__x86_64__)
+__attribute__((target("avx2"), flatten)) void multiply_four_avx2(const double* m, std::size_t size,
+                                                                 const FourDoubles* v, FourDoubles* result) {
+  multiply_four(m, size, v, result);
+}
+#endif
+
 }  // namespace
 
 void multiply_stiffness(const double* matrix, std::size_t size, const double* v, double* result) {
@@ -236,6 +309,15 @@ void multiply_stiffness(const double* matrix, std::size_t size, const double* v,
   static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_avx2 : multiply_baseline;
 #else
   static const auto chosen = multiply_baseline;
+#endif
+  chosen(matrix, size, v, result);
+}
+
+void multiply_stiffness_of_four(const double* matrix, std::size_t size, const FourDoubles* v, FourDoubles* result) {
+#if defined(__x86_64__)
+  static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_four_avx2 : multiply_four_baseline;
+#else
+  static const auto chosen = multiply_four_baseline;
 #endif
   chosen(matrix, size, v, result);
 }

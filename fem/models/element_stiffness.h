@@ -7,13 +7,18 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "fem/element_block.h"
 #include "fem/models/formulation.h"
+#include "fem/models/lanes.h"
 
 namespace argil::fem {
+
+/// Fills the 3n x 3n matrices of all elements of a block, column by column, one after the other.
+using FillMatrices = std::function<void(const ElementBlock& distinct, double* matrices)>;
 
 /// Does not change once it is built: who keeps one builds another when is_current() says no.
 class ElementStiffness {
@@ -21,13 +26,17 @@ class ElementStiffness {
   /// The blocks must outlive this. Cost O(elements) and, for each distinct matrix, O(points · nodes²).
   ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                    Formulation formulation);
+  /// Other matrices that depend on shape and material only: `fill` is given the elements, one of each kind of
+  /// congruent ones.
+  ElementStiffness(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
+                   const FillMatrices& fill);
 
   /// Whether the blocks still have the materials that this was built with. Cost O(points).
   [[nodiscard]] bool is_current() const;
 
   std::size_t block_count() const { return blocks_.size(); }
   const ElementBlock& block(std::size_t b) const { return blocks_[b]; }
-  /// K_e of an element, 3n x 3n and symmetric, node-major (3 a + axis).
+  /// K_e of an element, 3n x 3n column by column, node-major (3 a + axis).
   const double* matrix(std::size_t b, std::size_t element) const {
     const Shared& shared = shared_[b];
     return shared.matrices.data() + shared.index[element] * shared.size * shared.size;
@@ -49,10 +58,14 @@ class ElementStiffness {
   std::vector<Shared> shared_;
 };
 
-/// result = K v for a symmetric matrix of `size` rows: the same bits with and without AVX.
+/// result = K v for a matrix of `size` rows, column by column: the same bits with and without AVX. Distinct large
+/// matrices stream at the speed of memory.
 void multiply_stiffness(const double* matrix, std::size_t size, const double* v, double* result);
 
-/// K_e of one element from its rest positions (3 x nodes of the table) and materials, 3n x 3n.
+/// The same for one matrix and four vectors side by side, v and result at [row]: the bits of multiply_stiffness().
+void multiply_stiffness_of_four(const double* matrix, std::size_t size, const FourDoubles* v, FourDoubles* result);
+
+/// K_e of one element, symmetric, from its rest positions (3 x nodes of the table) and materials, 3n x 3n.
 [[nodiscard]] Eigen::MatrixXd element_stiffness(const ElementBlock& block, std::size_t element,
                                                 const Eigen::Matrix3Xd& rest_nodes, Formulation formulation);
 

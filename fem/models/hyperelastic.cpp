@@ -78,8 +78,6 @@ class Hyperelastic final : public ForceModel {
     switch (kind_) {
       case Law::corotational:
         return "corotational";
-      case Law::linear:
-        return "linear";
       case Law::stable_neo_hookean:
         return "stable_neo_hookean";
       case Law::st_venant_kirchhoff:
@@ -89,11 +87,6 @@ class Hyperelastic final : public ForceModel {
   }
   Promises promises() const override {
     Promises promises;
-    if (kind_ == Law::linear) {
-      promises.conserves_momentum = false;  // moments vanish at rest only
-      promises.rotation_invariant = false;
-      promises.largest_rotation = 0.05;  // strain of a rigid rotation: 1 − cos ≈ 1e-3
-    }
     promises.inversion_is_error = kind_ == Law::st_venant_kirchhoff;  // the mirror image has no Green strain
     return promises;
   }

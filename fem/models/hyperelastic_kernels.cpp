@@ -118,8 +118,6 @@ HyperelasticKernels hyperelastic_kernels(Law law, const ElementKind& kind, bool 
   switch (law) {
     case Law::corotational:
       return corotational_law_kernels(kind, mean, isa);
-    case Law::linear:
-      return linear_law_kernels(kind, mean, isa);
     case Law::stable_neo_hookean:
       return stable_neo_hookean_law_kernels(kind, mean, isa);
     case Law::st_venant_kirchhoff:

@@ -5,27 +5,27 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "fem/models/element_stiffness.h"
 #include "fem/models/local_frame_operator.h"
-#include "fem/models/local_frame_store.h"
+#include "fem/models/node_sums.h"
 #include "fem/parallel.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
 namespace {
 
-/// One block: which nodes, what R compares with, K_e, and the gradients in the middle of the cell.
+/// One block: what R compares with, and the gradients in the middle of the cell.
 struct Part {
-  const ElementKind* kind = nullptr;
+  const ElementBlock* block = nullptr;
+  std::size_t index = 0;  // of the block
   const LocalTopology* topology = nullptr;
-  std::vector<std::uint32_t> nodes;
   std::vector<double> rest_measures;        // [element * measure_count]
   std::vector<Eigen::Matrix3Xd> gradients;  // [element], ∂N/∂X in the middle
-  ElementMatrices matrices;
-  std::size_t slot_begin = 0, element_begin = 0;
 
-  std::size_t node_count() const { return static_cast<std::size_t>(kind->node_count); }
-  std::size_t element_count() const { return nodes.size() / node_count(); }
+  std::size_t node_count() const { return static_cast<std::size_t>(block->kind->node_count); }
+  std::size_t element_count() const { return block->element_count(); }
   std::size_t measure_count() const { return topology->edges.size() + topology->corners.size(); }
+  const std::uint32_t* nodes(std::size_t element) const { return block->nodes.data() + element * node_count(); }
 };
 
 /// A block as papers/004 integrates it: ∂x/∂u for the strain, over the unit cube.
@@ -51,28 +51,32 @@ Eigen::MatrixXd printed_stiffness(const Eigen::MatrixXd& stiffness) {
   return result;
 }
 
-/// Elements of all blocks and the sums over them, node by node in a fixed order.
+FillMatrices fill_printed(const Eigen::Matrix3Xd& rest_nodes) {
+  return [&rest_nodes](const ElementBlock& distinct, double* matrices) {
+    const ElementBlock printed = in_cell_coordinates(distinct);
+    make_linear({&printed, 1}, rest_nodes)
+        ->tangent(rest_nodes, Projection::none)
+        ->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& stiffness) {
+          const Eigen::MatrixXd k = printed_stiffness(stiffness);
+          matrices = std::copy(k.data(), k.data() + k.size(), matrices);
+        });
+  };
+}
+
+/// Elements of all blocks, without their material.
 class LocalFrames {
  public:
-  LocalFrames(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, bool literal)
-      : node_count_(static_cast<std::size_t>(rest_nodes.cols())) {
+  LocalFrames(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes)
+      : sums(blocks, static_cast<std::size_t>(rest_nodes.cols())) {
     for (const ElementBlock& block : blocks) {
-      Part part{block.kind, &local_topology(*block.kind),           block.nodes, {},
-                {},         ElementMatrices(block.kind->node_count)};
-      part.slot_begin = slot_count_;
-      part.element_begin = element_count_;
-      slot_count_ += block.nodes.size();
-      element_count_ += block.element_count();
-      measure(part, block, rest_nodes);
-      fill_matrices(part, block, rest_nodes, literal);
+      Part part{&block, parts_.size(), &local_topology(*block.kind), {}, {}};
+      measure(part, rest_nodes);
       parts_.push_back(std::move(part));
     }
-    list_slots();
   }
 
   std::span<const Part> parts() const { return parts_; }
-  std::size_t slot_count() const { return slot_count_; }
-  std::size_t element_count() const { return element_count_; }
+  std::size_t slot(const Part& part, std::size_t element) const { return 3 * sums.slot(part.index, element); }
 
   /// Calls body(part, element) for all elements, in parallel.
   template <class Body>
@@ -81,18 +85,11 @@ class LocalFrames {
       parallel_for(part.element_count(), part.node_count() > 8 ? 1 : 32, [&](std::size_t e) { body(part, e); });
   }
 
-  void gather(const std::vector<double>& slots, Eigen::Matrix3Xd& result) const {
-    result.resize(3, static_cast<Eigen::Index>(node_count_));
-    parallel_for(node_count_, 512, [&](std::size_t node) {
-      double sum[3] = {0, 0, 0};
-      for (std::size_t i = slots_begin_[node]; i < slots_begin_[node + 1]; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += slots[3 * slots_[i] + axis];
-      for (int axis = 0; axis < 3; ++axis) result(axis, static_cast<Eigen::Index>(node)) = sum[axis];
-    });
-  }
+  NodeSums sums;
 
  private:
-  static void measure(Part& part, const ElementBlock& block, const Eigen::Matrix3Xd& rest_nodes) {
+  static void measure(Part& part, const Eigen::Matrix3Xd& rest_nodes) {
+    const ElementBlock& block = *part.block;
     const std::size_t n = part.node_count(), count = block.element_count();
     part.rest_measures.resize(count * part.measure_count());
     part.gradients.resize(count);
@@ -114,34 +111,7 @@ class LocalFrames {
     });
   }
 
-  static void fill_matrices(Part& part, const ElementBlock& block, const Eigen::Matrix3Xd& rest_nodes,
-                            bool literal) {
-    const ElementBlock printed = literal ? in_cell_coordinates(block) : ElementBlock{};
-    const ElementBlock& integrated = literal ? printed : block;
-    std::size_t element = 0;
-    make_linear({&integrated, 1}, rest_nodes)
-        ->tangent(rest_nodes, Projection::none)
-        ->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& stiffness) {
-          part.matrices.append(ElementMatrices::congruence_key(block, element, rest_nodes),
-                               literal ? printed_stiffness(stiffness) : stiffness);
-          ++element;
-        });
-  }
-
-  void list_slots() {
-    slots_begin_.assign(node_count_ + 1, 0);
-    for (const Part& part : parts_)
-      for (const std::uint32_t node : part.nodes) ++slots_begin_[node + 1];
-    for (std::size_t n = 0; n < node_count_; ++n) slots_begin_[n + 1] += slots_begin_[n];
-    slots_.resize(slots_begin_.back());
-    std::vector<std::size_t> next(slots_begin_.begin(), slots_begin_.end() - 1);
-    for (const Part& part : parts_)
-      for (std::size_t i = 0; i < part.nodes.size(); ++i) slots_[next[part.nodes[i]]++] = part.slot_begin + i;
-  }
-
   std::vector<Part> parts_;
-  std::size_t node_count_, slot_count_ = 0, element_count_ = 0;
-  std::vector<std::size_t> slots_begin_, slots_;
 };
 
 /// The nodes of one element, at most 64.
@@ -152,12 +122,12 @@ void take(const Part& part, std::size_t element, const Eigen::Matrix3Xd& x, Loca
   const std::size_t n = part.node_count();
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      to.values[3 * a + axis] = x(static_cast<Eigen::Index>(axis), part.nodes[element * n + a]);
+      to.values[3 * a + axis] = x(static_cast<Eigen::Index>(axis), part.nodes(element)[a]);
 }
 void displacements(const Part& part, std::size_t element, const Eigen::Matrix3Xd& x, Local& result) {
   Local at;
   take(part, element, x, at);
-  local_displacements(*part.topology, part.kind->node_count,
+  local_displacements(*part.topology, part.block->kind->node_count,
                       part.rest_measures.data() + element * part.measure_count(), at.values, result.values);
 }
 void turn(const Eigen::Matrix3d& by, std::size_t nodes, Local& values) {
@@ -173,14 +143,14 @@ Eigen::Matrix3d frame(const Part& part, std::size_t element, const Eigen::Matrix
   Eigen::Matrix3d f = Eigen::Matrix3d::Zero();
   const std::size_t n = part.node_count();
   for (std::size_t a = 0; a < n; ++a)
-    f += x.col(part.nodes[element * n + a]) * part.gradients[element].col(static_cast<Eigen::Index>(a)).transpose();
+    f += x.col(part.nodes(element)[a]) * part.gradients[element].col(static_cast<Eigen::Index>(a)).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();
   if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
   return u * svd.matrixV().transpose();
 }
 
-/// The elements with the material that the blocks have now: made anew where it was painted.
+/// The elements, and their matrices with the material that the blocks have now: made anew where it was painted.
 class CurrentFrames {
  public:
   CurrentFrames(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes, bool literal)
@@ -192,75 +162,75 @@ class CurrentFrames {
             fmt::format("the published local frame measures edges and angles of hexahedra and pyramids; a {} "
                         "has no such; choose another model",
                         block.kind->name));
-    (void)get();
+    frames_ = std::make_shared<LocalFrames>(blocks, rest_nodes);
+    (void)stiffness();
   }
 
-  const std::shared_ptr<const LocalFrames>& get() {
-    bool same = frames_ != nullptr;
-    for (std::size_t b = 0; b < blocks_.size() && same; ++b)
-      same = mu_[b] == blocks_[b].mu && lambda_[b] == blocks_[b].lambda;
-    if (same) return frames_;
-    mu_.clear();
-    lambda_.clear();
-    for (const ElementBlock& block : blocks_) {
-      mu_.push_back(block.mu);
-      lambda_.push_back(block.lambda);
-    }
-    frames_ = std::make_shared<LocalFrames>(blocks_, rest_nodes_, literal_);
-    return frames_;
+  const std::shared_ptr<const LocalFrames>& frames() const { return frames_; }
+  const std::shared_ptr<const ElementStiffness>& stiffness() {
+    if (stiffness_ && stiffness_->is_current()) return stiffness_;
+    stiffness_ = literal_ ? std::make_shared<ElementStiffness>(blocks_, rest_nodes_, fill_printed(rest_nodes_))
+                          : std::make_shared<ElementStiffness>(blocks_, rest_nodes_, Formulation::plain);
+    return stiffness_;
   }
 
  private:
   std::span<const ElementBlock> blocks_;
   Eigen::Matrix3Xd rest_nodes_;
   bool literal_;
-  std::vector<std::vector<double>> mu_, lambda_;
   std::shared_ptr<const LocalFrames> frames_;
+  std::shared_ptr<const ElementStiffness> stiffness_;
 };
+
+void multiply(const ElementStiffness& stiffness, const Part& part, std::size_t element, const Local& d,
+              Local& force) {
+  multiply_stiffness(stiffness.matrix(part.index, element), 3 * part.node_count(), d.values, force.values);
+}
 
 /// Q K Qᵀ in every element.
 class FrameTangent final : public Tangent {
  public:
-  FrameTangent(std::shared_ptr<const LocalFrames> frames, const Eigen::Matrix3Xd& x)
-      : frames_(std::move(frames)), turns_(frames_->element_count()), slots_(3 * frames_->slot_count()) {
-    frames_->for_elements(
-        [&](const Part& part, std::size_t e) { turns_[part.element_begin + e] = frame(part, e, x); });
+  FrameTangent(std::shared_ptr<const LocalFrames> frames, std::shared_ptr<const ElementStiffness> stiffness,
+               const Eigen::Matrix3Xd& x)
+      : frames_(std::move(frames)), stiffness_(std::move(stiffness)), slots_(3 * frames_->sums.slot_count()) {
+    for (const Part& part : frames_->parts()) turns_.emplace_back(part.element_count());
+    frames_->for_elements([&](const Part& part, std::size_t e) { turns_[part.index][e] = frame(part, e, x); });
   }
 
   void stiffness_product(const Eigen::Matrix3Xd& dx, Eigen::Matrix3Xd& result) const override {
     frames_->for_elements([&](const Part& part, std::size_t e) {
       Local d, force;
       take(part, e, dx, d);
-      const Eigen::Matrix3d& q = turns_[part.element_begin + e];
+      const Eigen::Matrix3d& q = turns_[part.index][e];
       turn(q.transpose(), part.node_count(), d);
-      part.matrices.product(e, d.values, force.values);
+      multiply(*stiffness_, part, e, d, force);
       turn(q, part.node_count(), force);
-      std::copy_n(force.values, 3 * part.node_count(),
-                  slots_.data() + 3 * (part.slot_begin + e * part.node_count()));
+      std::copy_n(force.values, 3 * part.node_count(), slots_.data() + frames_->slot(part, e));
     });
-    frames_->gather(slots_, result);
+    frames_->sums.gather(slots_, result);
   }
 
   void element_tangents(const Visit& visit) const override {
     Eigen::MatrixXd turned;
     for (const Part& part : frames_->parts()) {
-      const auto size = static_cast<Eigen::Index>(part.matrices.size());
+      const auto size = static_cast<Eigen::Index>(3 * part.node_count());
       for (std::size_t e = 0; e < part.element_count(); ++e) {
-        const Eigen::Matrix3d& q = turns_[part.element_begin + e];
-        turned = Eigen::Map<const Eigen::MatrixXd>(part.matrices.matrix(e), size, size).transpose();
+        const Eigen::Matrix3d& q = turns_[part.index][e];
+        turned = Eigen::Map<const Eigen::MatrixXd>(stiffness_->matrix(part.index, e), size, size);
         for (Eigen::Index a = 0; a < size; a += 3)
           for (Eigen::Index b = 0; b < size; b += 3) {
             const Eigen::Matrix3d block = q * turned.block<3, 3>(a, b) * q.transpose();
             turned.block<3, 3>(a, b) = block;
           }
-        visit({part.nodes.data() + e * part.node_count(), part.node_count()}, turned);
+        visit({part.nodes(e), part.node_count()}, turned);
       }
     }
   }
 
  private:
   std::shared_ptr<const LocalFrames> frames_;
-  std::vector<Eigen::Matrix3d> turns_;  // [element of all parts]
+  std::shared_ptr<const ElementStiffness> stiffness_;
+  std::vector<std::vector<Eigen::Matrix3d>> turns_;  // [block][element]
   mutable std::vector<double> slots_;
 };
 
@@ -281,10 +251,11 @@ class LocalFrame final : public ForceModel {
 
   double energy(const Eigen::Matrix3Xd& x) const override {
     double total = 0;
-    for (const Part& part : current_.get()->parts())
+    const ElementStiffness& stiffness = *current_.stiffness();
+    for (const Part& part : current_.frames()->parts())
       total += parallel_sum(part.element_count(), 16, [&](std::size_t e) {
         Local d, force;
-        strain_and_force(part, e, x, d, force);
+        strain_and_force(stiffness, part, e, x, d, force);
         double sum = 0;
         for (std::size_t i = 0; i < 3 * part.node_count(); ++i) sum += 0.5 * d.values[i] * force.values[i];
         return sum;
@@ -293,29 +264,29 @@ class LocalFrame final : public ForceModel {
   }
 
   void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
-    const LocalFrames& frames = *current_.get();
-    slots_.resize(3 * frames.slot_count());
+    const LocalFrames& frames = *current_.frames();
+    const ElementStiffness& stiffness = *current_.stiffness();
+    slots_.resize(3 * frames.sums.slot_count());
     frames.for_elements([&](const Part& part, std::size_t e) {
       Local d, force;
-      turn(-strain_and_force(part, e, x, d, force), part.node_count(), force);
-      std::copy_n(force.values, 3 * part.node_count(),
-                  slots_.data() + 3 * (part.slot_begin + e * part.node_count()));
+      turn(-strain_and_force(stiffness, part, e, x, d, force), part.node_count(), force);
+      std::copy_n(force.values, 3 * part.node_count(), slots_.data() + frames.slot(part, e));
     });
-    frames.gather(slots_, forces);
+    frames.sums.gather(slots_, forces);
   }
 
   std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd& x, Projection) const override {
-    return std::make_unique<FrameTangent>(current_.get(), x);
+    return std::make_unique<FrameTangent>(current_.frames(), current_.stiffness(), x);
   }
 
  private:
   /// d = Qᵀ ½R and K d; returns Q.
-  static Eigen::Matrix3d strain_and_force(const Part& part, std::size_t e, const Eigen::Matrix3Xd& x, Local& d,
-                                          Local& force) {
+  static Eigen::Matrix3d strain_and_force(const ElementStiffness& stiffness, const Part& part, std::size_t e,
+                                          const Eigen::Matrix3Xd& x, Local& d, Local& force) {
     displacements(part, e, x, d);
     const Eigen::Matrix3d q = frame(part, e, x);
     turn(0.5 * q.transpose(), part.node_count(), d);
-    part.matrices.product(e, d.values, force.values);
+    multiply(stiffness, part, e, d, force);
     return q;
   }
 
@@ -346,22 +317,23 @@ class LocalFrameLiteral final : public ForceModel {
   }
 
   void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
-    const LocalFrames& frames = *current_.get();
-    slots_.resize(3 * frames.slot_count());
+    const LocalFrames& frames = *current_.frames();
+    const ElementStiffness& stiffness = *current_.stiffness();
+    slots_.resize(3 * frames.sums.slot_count());
     frames.for_elements([&](const Part& part, std::size_t e) {
       Local d;
       displacements(part, e, x, d);
-      std::copy_n(d.values, 3 * part.node_count(), slots_.data() + 3 * (part.slot_begin + e * part.node_count()));
+      std::copy_n(d.values, 3 * part.node_count(), slots_.data() + frames.slot(part, e));
     });
-    frames.gather(slots_, summed_);
+    frames.sums.gather(slots_, summed_);
     frames.for_elements([&](const Part& part, std::size_t e) {
       Local d, force;
       take(part, e, summed_, d);
-      part.matrices.product(e, d.values, force.values);
-      double* to = slots_.data() + 3 * (part.slot_begin + e * part.node_count());
+      multiply(stiffness, part, e, d, force);
+      double* to = slots_.data() + frames.slot(part, e);
       for (std::size_t i = 0; i < 3 * part.node_count(); ++i) to[i] = -force.values[i];
     });
-    frames.gather(slots_, forces);
+    frames.sums.gather(slots_, forces);
   }
 
   /// That of linear elasticity: what an implicit method is given to fail with.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "fem/models/hyperelastic.h"
+#include "fem/models/linear.h"
 #include "fem/models/local_frame.h"
 #include "fem/models/mass_spring.h"
 #include "fem/models/prestress.h"
@@ -13,15 +14,12 @@ namespace argil::fem {
 
 namespace {
 
-/// Plain corotational and linear elements have kernels of their own, which are faster.
+/// Plain corotational elements have kernels of their own, which are faster.
 template <Law law>
 std::unique_ptr<ForceModel> make_law(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                                      Formulation formulation) {
   const bool mean_dilatation = formulation == Formulation::b_bar;
   if (law == Law::corotational && !mean_dilatation) return make_corotational(blocks, rest_nodes);
-  if (law == Law::linear && formulation == Formulation::incompatible_modes)
-    return make_linear_by_matrices(blocks, rest_nodes, formulation);
-  if (law == Law::linear && !mean_dilatation) return make_linear(blocks, rest_nodes);
   return make_hyperelastic(law, blocks, rest_nodes, mean_dilatation);
 }
 
@@ -47,7 +45,7 @@ std::span<const ModelKind> model_table() {
        .has_b_bar = true},
       {.name = "linear",
        .summary = "small strain in fixed axes, wrong under rotation",
-       .make = make_law<Law::linear>,
+       .make = make_linear_as,
        .has_b_bar = true,
        .has_incompatible_modes = true},
       {.name = "stable_neo_hookean",

@@ -1,5 +1,5 @@
 #pragma once
-// The tangent of the corotational and the linear model: per quadrature point a rotation, a twist matrix and Lamé's
+// The tangent of the corotational model: per quadrature point a rotation, a twist matrix and Lamé's
 // constants (corotational_kernels.h), independent of later changes of state and material.
 
 #include <memory>

@@ -22,6 +22,10 @@ struct Elements {
   Elements(std::span<const ElementBlock> b, const Eigen::Matrix3Xd& rest)
       : blocks(b), rest_nodes(rest), sums(b, static_cast<std::size_t>(rest.cols())) {}
 
+  const std::uint32_t* nodes(std::size_t b, std::size_t element) const {
+    return blocks[b].nodes.data() + element * static_cast<std::size_t>(blocks[b].kind->node_count);
+  }
+
   std::span<const ElementBlock> blocks;
   Eigen::Matrix3Xd rest_nodes;
   NodeSums sums;
@@ -35,21 +39,50 @@ void for_elements(std::span<const ElementBlock> blocks, const Body& body) {
     parallel_for(blocks[b].element_count(), 64, [&](std::size_t e) { body(b, e); });
 }
 
-/// slots = sign · R K Rᵀ v of each element, where local(node) is Rᵀ v there; returns through `slots`.
+ARGIL_LANES_INLINE void write(const Eigen::Vector3d& value, const Eigen::Matrix3d* rotation, double sign,
+                              double* slot) {
+  const Eigen::Vector3d turned = rotation ? Eigen::Vector3d(*rotation * value) : value;
+  for (int i = 0; i < 3; ++i) slot[i] = sign * turned[i];
+}
+
+/// Slots of all elements = sign · R K Rᵀ v, where local(block, element, node) is Rᵀ v. Four neighbours that are
+/// congruent are multiplied side by side, which gives the same bits.
 template <class Local>
-void multiply_element(const ElementStiffness& stiffness, std::size_t b, std::size_t e,
-                      const Eigen::Matrix3d* rotation, double sign, const Local& local, double* slots) {
-  const auto nodes = static_cast<std::size_t>(stiffness.block(b).kind->node_count);
-  double v[k_most_entries], product[k_most_entries];
-  for (std::size_t a = 0; a < nodes; ++a) {
-    const Eigen::Vector3d value = local(a);
-    for (std::size_t i = 0; i < 3; ++i) v[3 * a + i] = value[static_cast<int>(i)];
-  }
-  multiply_stiffness(stiffness.matrix(b, e), 3 * nodes, v, product);
-  for (std::size_t a = 0; a < nodes; ++a) {
-    Eigen::Vector3d value(product[3 * a], product[3 * a + 1], product[3 * a + 2]);
-    if (rotation) value = *rotation * value;
-    for (std::size_t i = 0; i < 3; ++i) slots[3 * a + i] = sign * value[static_cast<int>(i)];
+void multiply_elements(const Elements& elements, const ElementStiffness& stiffness, const Rotations& rotations,
+                       double sign, const Local& local, double* slots) {
+  for (std::size_t b = 0; b < elements.blocks.size(); ++b) {
+    const ElementBlock& block = elements.blocks[b];
+    const auto nodes = static_cast<std::size_t>(block.kind->node_count);
+    const std::size_t count = block.element_count();
+    const auto rotation = [&](std::size_t e) { return rotations.empty() ? nullptr : &rotations[b][e]; };
+    parallel_for((count + k_lanes - 1) / k_lanes, 16, [&](std::size_t packet) {
+      const std::size_t first = packet * k_lanes, last = std::min(first + k_lanes, count);
+      bool congruent = last - first == k_lanes;
+      for (std::size_t e = first + 1; e < last; ++e)
+        congruent = congruent && stiffness.index(b, e) == stiffness.index(b, first);
+      FourDoubles v[k_most_entries], product[k_most_entries];
+      if (congruent) {
+        for (std::size_t a = 0; a < nodes; ++a)
+          for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+            const Eigen::Vector3d value = local(b, first + lane, a);
+            for (std::size_t i = 0; i < 3; ++i) v[3 * a + i].values[lane] = value[static_cast<int>(i)];
+          }
+        multiply_stiffness_of_four(stiffness.matrix(b, first), 3 * nodes, v, product);
+        for (std::size_t lane = 0; lane < k_lanes; ++lane)
+          for (std::size_t a = 0; a < nodes; ++a)
+            write({product[3 * a].values[lane], product[3 * a + 1].values[lane], product[3 * a + 2].values[lane]},
+                  rotation(first + lane), sign, slots + 3 * (elements.sums.slot(b, first + lane) + a));
+        return;
+      }
+      double *one = v[0].values, *result = product[0].values;
+      for (std::size_t e = first; e < last; ++e) {
+        for (std::size_t a = 0; a < nodes; ++a) Eigen::Map<Eigen::Vector3d>(one + 3 * a) = local(b, e, a);
+        multiply_stiffness(stiffness.matrix(b, e), 3 * nodes, one, result);
+        for (std::size_t a = 0; a < nodes; ++a)
+          write({result[3 * a], result[3 * a + 1], result[3 * a + 2]}, rotation(e), sign,
+                slots + 3 * (elements.sums.slot(b, e) + a));
+      }
+    });
   }
 }
 
@@ -61,19 +94,14 @@ class WarpedTangent final : public Tangent {
 
   void stiffness_product(const Eigen::Matrix3Xd& dx, Eigen::Matrix3Xd& result) const override {
     slots_.resize(3 * elements_->sums.slot_count());
-    for_elements(elements_->blocks, [&](std::size_t b, std::size_t e) {
-      const ElementBlock& block = elements_->blocks[b];
-      const std::uint32_t* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.kind->node_count);
-      const Eigen::Matrix3d* rotation = rotations_.empty() ? nullptr : &rotations_[b][e];
-      const Eigen::Vector3d first = dx.col(nodes[0]);
-      multiply_element(
-          *stiffness_, b, e, rotation, 1.0,
-          [&](std::size_t a) {
-            const Eigen::Vector3d d = dx.col(nodes[a]) - first;
-            return rotation ? Eigen::Vector3d(rotation->transpose() * d) : d;
-          },
-          slots_.data() + 3 * elements_->sums.slot(b, e));
-    });
+    multiply_elements(
+        *elements_, *stiffness_, rotations_, 1.0,
+        [&](std::size_t b, std::size_t e, std::size_t a) {
+          const std::uint32_t* nodes = elements_->nodes(b, e);
+          const Eigen::Vector3d d = dx.col(nodes[a]) - dx.col(nodes[0]);
+          return rotations_.empty() ? d : Eigen::Vector3d(rotations_[b][e].transpose() * d);
+        },
+        slots_.data());
     elements_->sums.gather(slots_, result);
   }
 
@@ -151,20 +179,15 @@ class WarpedStiffness final : public ForceModel {
     const Rotations turns = rotations(x);
     const Eigen::Matrix3Xd& rest = elements_->rest_nodes;
     slots_.resize(3 * elements_->sums.slot_count());
-    for_elements(elements_->blocks, [&](std::size_t b, std::size_t e) {
-      const ElementBlock& block = elements_->blocks[b];
-      const std::uint32_t* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.kind->node_count);
-      const Eigen::Matrix3d* rotation = warped_ ? &turns[b][e] : nullptr;
-      const Eigen::Vector3d first = x.col(nodes[0]), rest_first = rest.col(nodes[0]);
-      multiply_element(
-          *stiffness, b, e, rotation, -1.0,
-          [&](std::size_t a) {
-            Eigen::Vector3d now = x.col(nodes[a]) - first;
-            if (rotation) now = rotation->transpose() * now;
-            return Eigen::Vector3d(now - (rest.col(nodes[a]) - rest_first));
-          },
-          slots_.data() + 3 * elements_->sums.slot(b, e));
-    });
+    multiply_elements(
+        *elements_, *stiffness, turns, -1.0,
+        [&](std::size_t b, std::size_t e, std::size_t a) {
+          const std::uint32_t* nodes = elements_->nodes(b, e);
+          Eigen::Vector3d now = x.col(nodes[a]) - x.col(nodes[0]);
+          if (warped_) now = turns[b][e].transpose() * now;
+          return Eigen::Vector3d(now - (rest.col(nodes[a]) - rest.col(nodes[0])));
+        },
+        slots_.data());
     elements_->sums.gather(slots_, forces);
   }
 

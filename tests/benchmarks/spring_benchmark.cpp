@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "fem/discretization.h"
+#include "fem/models/element_stiffness.h"
 #include "fem/models/local_frame.h"
-#include "fem/models/local_frame_store.h"
 #include "fem/models/mass_spring.h"
 #include "fem/parallel.h"
 #include "subdiv/primitives.h"
@@ -67,8 +67,8 @@ void dense_products(benchmark::State& state) {
     });
     product_time += seconds([&] {
       fem::parallel_for(k_count, 1, [&](std::size_t e) {
-        fem::dense_product(matrices.data() + e * k_size * k_size, k_size, d.data() + e * k_size,
-                           result.data() + e * k_size);
+        fem::multiply_stiffness(matrices.data() + e * k_size * k_size, k_size, d.data() + e * k_size,
+                                result.data() + e * k_size);
       });
     });
     benchmark::DoNotOptimize(sums.data());

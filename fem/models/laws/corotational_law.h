@@ -9,7 +9,6 @@ namespace argil::fem {
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 struct CorotationalLaw {
-  static constexpr bool k_isotropic = true;
   // σ_j + σ_k of a flat, mirrored element may vanish, where the energy has no second derivative.
   static constexpr double k_least_pair = 1e-6;
 

@@ -3,7 +3,6 @@
 //   prepare<Isa>(f, material, state)          what density and stress need, and state.dilatation = θ
 //   density(state, material)                  W, less its value and that of κ/2 θ² at F = I
 //   stress(state, material, pressure)         ∂W/∂F + pressure ∂θ/∂F
-//   k_isotropic                               false: the tangent below is in fixed axes, U = V = I
 //   spectrum(sigma, material, pressure)       second derivatives of W + pressure θ, and ∂θ/∂σ
 //   dilatation(sigma, material)               θ
 

@@ -117,13 +117,7 @@ struct LawTangent {
           a, packet, shape, [&](std::size_t p, std::size_t index, const LaneMatrix& jacobian, const LaneMatrix& f) {
             const PointMaterial m = material(a, packet, p, points);
             LaneSvd svd;
-            if constexpr (Law::k_isotropic) {
-              Isa::svd(f, svd);
-            } else {
-              for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) svd.u[i].m[j] = svd.v[i].m[j] = broadcast(i == j);
-              for (Lanes& sigma : svd.sigma.m) sigma = broadcast(1);
-            }
+            Isa::svd(f, svd);
             const Lanes bulk = bulk_modulus(m);
             LawSpectrum s =
                 Law::spectrum(svd.sigma, m, Mean ? mean.pressure() : bulk * Law::dilatation(svd.sigma, m));
@@ -264,7 +258,6 @@ HyperelasticKernels law_kernels(const ElementKind& kind, bool mean, Instructions
 }
 
 HyperelasticKernels corotational_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
-HyperelasticKernels linear_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels stable_neo_hookean_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels st_venant_kirchhoff_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 

@@ -9,8 +9,6 @@ namespace argil::fem {
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 struct StVenantKirchhoffLaw {
-  static constexpr bool k_isotropic = true;
-
   template <class Isa>
   static ARGIL_LANES_INLINE void prepare(const LaneMatrix& f, const PointMaterial&, LawState& s) {
     s.f = f;

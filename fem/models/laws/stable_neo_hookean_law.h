@@ -34,8 +34,6 @@ ARGIL_LANES_INLINE Lanes above_logarithm(const Lanes& y) {
 }
 
 struct StableNeoHookeanLaw {
-  static constexpr bool k_isotropic = true;
-
   template <class Isa>
   static ARGIL_LANES_INLINE void prepare(const LaneMatrix& f, const PointMaterial&, LawState& s) {
     s.f = f;

@@ -20,7 +20,7 @@ class DenseShape {
   ARGIL_LANES_INLINE int point_count() const { return kind_.point_count; }
 
   ARGIL_LANES_INLINE void gather(const double* x, const std::uint32_t* nodes) {
-    for (int n = 0; n < kind_.node_count; ++n) gather_node(x, nodes, n, nodes_[n]);
+    for (int n = 0; n < kind_.node_count; ++n) nodes_[n] = gather_node(x, nodes, n);
     for (int n = kind_.node_count - 1; n >= 0; --n) nodes_[n] = minus(nodes_[n], nodes_[0]);
   }
   ARGIL_LANES_INLINE void differentiate() {

@@ -30,12 +30,9 @@ class TricubicShape {
   ARGIL_LANES_INLINE int point_count() const { return 64; }
 
   ARGIL_LANES_INLINE void gather(const double* x, const std::uint32_t* nodes) {
-    LaneVector first;
-    gather_node(x, nodes, 0, first);
+    const LaneVector first = gather_node(x, nodes, 0);
     for (int n = 0; n < 64; ++n) {
-      LaneVector node;
-      gather_node(x, nodes, n, node);
-      node = minus(node, first);
+      const LaneVector node = minus(gather_node(x, nodes, n), first);
       for (int i = 0; i < 3; ++i) work_->nodes[i][n] = node.m[i];
     }
   }

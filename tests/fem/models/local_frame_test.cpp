@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "fem/models/local_frame_operator.h"
-#include "fem/models/local_frame_store.h"
 #include "tests/fem/element_bodies.h"
 #include "tests/fem/models/model_calls.h"
 
@@ -244,33 +243,6 @@ TEST(LocalFrame, DivergesWithoutDampingAtAnyTimeStepAndIsBoundedAsPublished) {
   const double damped = largest_excursion(body, *model, at.mass, 0.4 * limit, 10000, 0.1 * frequency, -20);
   EXPECT_GT(damped, 0.01);
   EXPECT_LT(damped, 0.1);
-}
-
-TEST(LocalFrame, CongruentElementsShareTheirMatrix) {
-  Body body = test::hexahedra(3, 0);
-  test::finish(body, 0.3, true);
-  const ElementBlock& block = body.blocks[0];
-  const auto key = ElementMatrices::congruence_key(block, 0, body.rest);
-  for (std::size_t e = 1; e < block.element_count(); ++e)
-    EXPECT_EQ(ElementMatrices::congruence_key(block, e, body.rest), key);
-  body.blocks[0].mu[8] *= 1.5;  // painted
-  EXPECT_NE(ElementMatrices::congruence_key(block, 1, body.rest), key);
-  body.rest(0, block.nodes[7]) += 1e-6;
-  EXPECT_NE(ElementMatrices::congruence_key(block, 0, body.rest), key);
-}
-
-TEST(LocalFrame, DenseProductIsTheProduct) {
-  for (const int nodes : {5, 8, 64}) {
-    const Eigen::Index size = 3 * nodes;
-    std::mt19937 generator(7);
-    Eigen::MatrixXd k(size, size);
-    for (Eigen::Index i = 0; i < k.size(); ++i) k.data()[i] = static_cast<double>(generator()) / 4294967296.0 - 0.5;
-    const Eigen::VectorXd d = k.col(1);
-    Eigen::VectorXd result(size);
-    const Eigen::MatrixXd rows = k.transpose();
-    dense_product(rows.data(), static_cast<std::size_t>(size), d.data(), result.data());
-    EXPECT_LE((result - k * d).norm(), 1e-14 * result.norm() * static_cast<double>(nodes));
-  }
 }
 
 TEST(LocalFrame, TangentIsThatOfTurnedLinearElasticity) {
