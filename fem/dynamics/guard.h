@@ -30,15 +30,16 @@ inline constexpr double k_guard_share = 0.5;        // of the energy present, th
 inline constexpr double k_guard_rounding = 1e-9;    // of the energy present: no growth
 inline constexpr double k_guard_negligible = 0.01;  // of the body's size a second: motion that harms nothing
 inline constexpr int k_guard_failures = 3;          // failed ladders that freeze a body
+inline constexpr double k_guard_thaw = 0.5;         // of the load at freezing, below which it is tried again
 inline constexpr int k_guard_newton_cap = 50;
 
 enum class GuardFinding { none, not_finite, energy, inversion };
-enum class GuardRemedy { none, substeps, iterations, implicit_euler, restored, frozen };
+enum class GuardRemedy { none, substeps, iterations, implicit_euler, eased, eased_from_rest, restored, frozen };
 inline constexpr std::array k_guard_findings{GuardFinding::not_finite, GuardFinding::energy,
                                              GuardFinding::inversion};
-inline constexpr std::array k_guard_remedies{GuardRemedy::substeps, GuardRemedy::iterations,
-                                             GuardRemedy::implicit_euler, GuardRemedy::restored,
-                                             GuardRemedy::frozen};
+inline constexpr std::array k_guard_remedies{
+    GuardRemedy::substeps,        GuardRemedy::iterations, GuardRemedy::implicit_euler, GuardRemedy::eased,
+    GuardRemedy::eased_from_rest, GuardRemedy::restored,   GuardRemedy::frozen};
 [[nodiscard]] std::string_view word(GuardFinding finding);
 [[nodiscard]] std::string_view word(GuardRemedy remedy);
 
@@ -48,6 +49,7 @@ struct GuardState {
   int failures = 0;    // failed ladders that no untroubled step has made up for
   bool frozen = false;
   GuardFinding cause = GuardFinding::none;  // of the last failure
+  double dead_load = 0, pull = 0;           // of a frozen body when it was frozen: Σ |force|, of springs apart [N]
   bool operator==(const GuardState&) const = default;
 };
 
@@ -56,6 +58,7 @@ struct GuardedReport {
   GuardFinding finding = GuardFinding::none;
   GuardRemedy remedy = GuardRemedy::none;
   int substeps = 1;
+  double share = 1;  // of the force out of balance that an eased step let through
 };
 
 /// One step under guard; at most 17 attempts of substeps in all. A frozen body only gets older. Beside the step it
