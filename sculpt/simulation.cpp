@@ -115,8 +115,14 @@ void report_guard(const Session& session, std::size_t first_step) {
     if (findings[k])
       causes +=
           fmt::format("{}{} from {}", causes.empty() ? "" : ", ", findings[k], cause_of(fem::k_guard_findings[k]));
-  static constexpr std::array k_help{"saved by substeps", "by more Newton iterations", "by implicit Euler",
-                                     "with loads eased",  "stopped and eased",         "taken back",
+  static constexpr std::array k_help{"saved by substeps",
+                                     "by more Newton iterations",
+                                     "by implicit Euler",
+                                     "with loads eased",
+                                     "from rest with loads eased",
+                                     "from rest with cells held",
+                                     "moved as a whole",
+                                     "taken back",
                                      "passed frozen"};
   static_assert(k_help.size() == fem::k_guard_remedies.size());
   for (std::size_t k = 0; k < remedies.size(); ++k)

@@ -1,9 +1,12 @@
 #include "fem/dynamics/guard.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "fem/dynamics/step_judge.h"
+#include "fem/dynamics/whole_motion.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
@@ -12,10 +15,13 @@ namespace {
 
 constexpr int k_substep_rungs[] = {2, 4, 8};
 constexpr double k_guard_newton_tolerance = 1e-6;
-// Of the force out of balance that an eased step lets through. From rest a body of stiffness E held by a tool of
-// some 1e3 E is still drawn by no more than its own size.
-constexpr double k_shares_in_motion[] = {1.0 / 2, 1.0 / 8, 1.0 / 32, 0};
-constexpr double k_shares_from_rest[] = {1.0 / 2, 1.0 / 8, 1.0 / 32, 1.0 / 128, 1.0 / 512};
+// Of the force out of balance that acts. From rest a spring of a thousand times the body's stiffness draws it by a
+// few times its strain at most.
+constexpr double k_shares_in_motion[] = {1.0 / 2, 1.0 / 8, 0};
+constexpr double k_shares_from_rest[] = {1.0 / 2, 1.0 / 8, 1.0 / 32, 1.0 / 256};
+constexpr double k_shares_held[] = {1, 1.0 / 16};
+// Of the largest influence that a control point has on a cell that would turn: those that have more are held.
+constexpr double k_influence_held[] = {0.75, 0.25, 0};
 constexpr int k_eased_parts = 8;
 
 void add(StepReport& sum, const StepReport& report) {
@@ -63,6 +69,11 @@ LoadSize size_of(const Loads& loads, const Eigen::Matrix3Xd& positions) {
   return result;
 }
 
+bool has_lessened(const Loads& loads, const Eigen::Matrix3Xd& positions, const GuardState& guard) {
+  const LoadSize load = size_of(loads, positions);
+  return load.dead < k_guard_thaw * guard.dead_load || load.pull < k_guard_thaw * guard.pull;
+}
+
 /// One way to take a step.
 struct Attempt {
   StepOptions options;
@@ -82,26 +93,52 @@ class Ladder {
         time_step_(time_step),
         clock_(clock),
         judge_(integrator),
+        given_(state),
         begin_(state),
-        worth_(judge_.worth(state, guard.surplus)) {}
+        given_worth_(judge_.worth(state, guard.surplus)),
+        worth_(given_worth_) {}
 
   /// True if the step is good, which is then taken.
   bool take(const Attempt& attempt) {
     BodyState trial = begin_;
     Worth worth = worth_;
     StepReport sum;
-    const GuardFinding finding = run(attempt, trial, worth, sum);
+    int parts = 0;
+    const GuardFinding finding = last_ = run(attempt, trial, worth, sum, parts);
     if (finding != GuardFinding::none) {
       if (report.finding == GuardFinding::none) report.finding = finding;
+      // The larger shares come first.
+      if (attempt.remedy == GuardRemedy::eased_from_rest && parts > 0 && !broken_off_) {
+        Kept kept{attempt, std::move(trial), worth, sum};
+        kept.attempt.share *= static_cast<double>(parts) / attempt.parts;
+        broken_off_ = std::move(kept);
+      }
       return false;
     }
-    trial.time = begin_.time + time_step_;
-    state_ = std::move(trial);
-    guard_.surplus = worth.surplus;
-    report.step = sum;
-    report.remedy = attempt.remedy;
-    report.substeps = attempt.parts;
-    report.share = attempt.share;
+    keep({attempt, std::move(trial), worth, sum});
+    return true;
+  }
+
+  /// Takes the good beginning of an attempt from rest, and stops the body there.
+  bool take_broken_off() {
+    if (!broken_off_) return false;
+    Kept kept = std::move(*broken_off_);
+    kept.state = at_rest(kept.state);
+    kept.worth.surplus = std::max(0.0, kept.worth.surplus - kept.worth.kinetic);
+    keep(std::move(kept));
+    return true;
+  }
+
+  /// The motion that the body had counts again.
+  bool take_as_a_whole() {
+    const System& system = integrator_.system();
+    if (last_ == GuardFinding::not_finite || !moves_as_a_whole(system)) return false;
+    Kept kept{{{}, 1, GuardRemedy::as_a_whole}, given_, given_worth_, {}};
+    step_as_a_whole(system, loads_, kept.state, time_step_);
+    if (judge_.judge(loads_, given_.positions, kept.state, 0, kept.worth) != GuardFinding::none) return false;
+    kept.sum.converged = true;
+    kept.sum.preconditioner = PreconditionerKind::none;
+    keep(std::move(kept));
     return true;
   }
 
@@ -111,6 +148,19 @@ class Ladder {
     begin_ = at_rest(begin_);
     worth_.surplus = std::max(0.0, worth_.surplus - worth_.kinetic);
     worth_.kinetic = 0;
+  }
+  /// Tries a step with the cells held that turned inside out in the last attempt, and if others do, those as well.
+  bool take_holding(const Attempt& attempt) {
+    const Pins pins(integrator_);
+    for (const double influence : k_influence_held) {
+      if (turned_.cols() == 0) return false;
+      if (held_.empty()) held_ = pins.given;
+      mark_turned(integrator_.system(), begin_.positions, turned_, influence, held_);
+      if (std::find(held_.begin(), held_.end(), std::uint8_t{0}) == held_.end()) return false;
+      integrator_.set_fixed(held_);
+      if (take(attempt)) return true;
+    }
+    return false;
   }
   bool moves() const { return worth_.kinetic > 0; }
 
@@ -124,24 +174,63 @@ class Ladder {
   GuardedReport report;
 
  private:
-  GuardFinding run(const Attempt& attempt, BodyState& trial, Worth& worth, StepReport& sum) {
+  /// Gives the integrator its own pins back at the end.
+  struct Pins {
+    explicit Pins(Integrator& of) : integrator(of), given(of.system().fixed) {}
+    ~Pins() { integrator.set_fixed(given); }
+    Pins(const Pins&) = delete;
+    Pins& operator=(const Pins&) = delete;
+    Integrator& integrator;
+    std::vector<std::uint8_t> given;
+  };
+
+  struct Kept {
+    Attempt attempt;
+    BodyState state;
+    Worth worth;
+    StepReport sum;
+  };
+  void keep(Kept kept) {
+    kept.state.time = begin_.time + time_step_;
+    state_ = std::move(kept.state);
+    guard_.surplus = kept.worth.surplus;
+    report.step = kept.sum;
+    report.remedy = kept.attempt.remedy;
+    report.substeps = kept.attempt.parts;
+    report.share = kept.attempt.share;
+  }
+
+  /// `trial`, `worth` and `parts` are those of the last good part.
+  GuardFinding run(const Attempt& attempt, BodyState& trial, Worth& worth, StepReport& sum, int& parts) {
+    turned_.resize(3, 0);
     Loads held_back;
+    double held_back_work = 0;  // of the dead force that eases, over the step until here [J]
     if (attempt.share < 1) {
       held_back = eased(integrator_.system(), loads_, trial.positions, attempt.share);
       if (!held_back.forces.allFinite()) return GuardFinding::not_finite;
     }
-    for (int part = 0; part < attempt.parts; ++part) {
-      const Eigen::Matrix3Xd from = trial.positions;
+    for (; parts < attempt.parts; ++parts) {
+      BodyState next = trial;
       try {
-        add(sum, integrator_.step(attempt.share < 1 ? held_back : loads_, trial, time_step_ / attempt.parts,
+        add(sum, integrator_.step(attempt.share < 1 ? held_back : loads_, next, time_step_ / attempt.parts,
                                   attempt.options, clock_));
       } catch (const Error& error) {
         if (error.code() != ErrorCode::not_converged) throw;
         return GuardFinding::not_finite;
       }
-      // The work is that of the true loads: what holds them back may take energy, but gives none.
-      const GuardFinding finding = judge_.judge(loads_, from, trial, worth);
+      // The force that eases may give back what it has taken in this step; more has come from nowhere.
+      double given = 0;
+      if (attempt.share < 1) {
+        held_back_work += dead_work(held_back, trial.positions, next.positions) -
+                          dead_work(loads_, trial.positions, next.positions);
+        given = std::max(0.0, held_back_work);
+        held_back_work -= given;
+      }
+      const GuardFinding finding =
+          judge_.judge(attempt.share < 1 ? held_back : loads_, trial.positions, next, given, worth);
+      if (finding == GuardFinding::inversion) turned_ = next.positions;
       if (finding != GuardFinding::none) return finding;
+      trial = std::move(next);
     }
     return GuardFinding::none;
   }
@@ -153,8 +242,12 @@ class Ladder {
   double time_step_;
   Clock clock_;
   StepJudge judge_;
-  BodyState begin_;
-  Worth worth_;
+  BodyState given_, begin_;
+  Worth given_worth_, worth_;
+  Eigen::Matrix3Xd turned_;  // where the last attempt had turned cells inside out; else empty
+  GuardFinding last_ = GuardFinding::none;
+  std::optional<Kept> broken_off_;
+  std::vector<std::uint8_t> held_;  // control points
 };
 
 }  // namespace
@@ -187,6 +280,10 @@ std::string_view word(GuardRemedy remedy) {
       return "eased";
     case GuardRemedy::eased_from_rest:
       return "eased_from_rest";
+    case GuardRemedy::held:
+      return "held";
+    case GuardRemedy::as_a_whole:
+      return "as_a_whole";
     case GuardRemedy::restored:
       return "restored";
     case GuardRemedy::frozen:
@@ -197,8 +294,7 @@ std::string_view word(GuardRemedy remedy) {
 
 GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard,
                            double time_step, const StepOptions& options, Clock clock) {
-  const LoadSize load = guard.frozen || guard.failures > 0 ? size_of(loads, state.positions) : LoadSize{};
-  if (guard.frozen && load.dead >= k_guard_thaw * guard.dead_load && load.pull >= k_guard_thaw * guard.pull) {
+  if (guard.frozen && !has_lessened(loads, state.positions, guard)) {
     GuardedReport report;
     const double time = state.time + time_step;
     state = at_rest(state);
@@ -234,8 +330,20 @@ GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState
     for (const double share : k_shares_in_motion)
       if (ladder.take({careful, k_eased_parts, GuardRemedy::eased, share})) return ladder.report;
   ladder.stop();
-  for (const double share : k_shares_from_rest)
+  // Newton's method may find no way down the residual of forces whose tangent is another's; a single solve needs
+  // none.
+  StepOptions one_solve = careful;
+  one_solve.method = Method::semi_implicit;
+  const bool has_energy = integrator.system().model->promises().has_energy;
+  for (const double share : k_shares_from_rest) {
     if (ladder.take({careful, k_eased_parts, GuardRemedy::eased_from_rest, share})) return ladder.report;
+    if (!has_energy && ladder.take({one_solve, k_eased_parts, GuardRemedy::eased_from_rest, share}))
+      return ladder.report;
+  }
+  for (const double share : k_shares_held)
+    if (ladder.take_holding({careful, k_eased_parts, GuardRemedy::held, share})) return ladder.report;
+  if (ladder.take_broken_off()) return ladder.report;
+  if (ladder.take_as_a_whole()) return ladder.report;
 
   ladder.stand_still();
   guard.cause = ladder.report.finding;

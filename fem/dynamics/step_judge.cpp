@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "fem/parallel.h"
 
@@ -24,9 +25,7 @@ double extent(const Eigen::Matrix3Xd& positions) {
 
 /// Work of loads and springs on the way, their forces and targets standing still.
 double work(const Loads& loads, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  double sum = 0;
-  if (loads.forces.cols() > 0)
-    for (Eigen::Index i = 0; i < to.cols(); ++i) sum += loads.forces.col(i).dot(to.col(i) - from.col(i));
+  double sum = dead_work(loads, from, to);
   for (const AnchorSpring& spring : loads.springs)
     sum += 0.5 * spring.stiffness *
            ((held_point(spring, from) - spring.target).squaredNorm() -
@@ -60,6 +59,15 @@ double energy_of_forces(const System& system, const Eigen::Matrix3Xd& positions)
   return std::abs(sum);
 }
 
+bool is_inverted(const ElementBlock& block, std::size_t element, int point, const Eigen::Matrix3Xd& x) {
+  const auto n = static_cast<std::size_t>(block.kind->node_count);
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+  const double* gradient = block.kind->gradients.data() + static_cast<std::size_t>(point) * n * 3;
+  for (std::size_t a = 0; a < n; ++a, gradient += 3)
+    for (int axis = 0; axis < 3; ++axis) jacobian.col(axis) += gradient[axis] * x.col(block.nodes[element * n + a]);
+  return jacobian.determinant() <= 0;
+}
+
 }  // namespace
 
 StepJudge::StepJudge(Integrator& integrator) : integrator_(&integrator) {
@@ -85,12 +93,12 @@ Worth StepJudge::worth(const BodyState& state, double surplus) {
   return result;
 }
 
-GuardFinding StepJudge::judge(const Loads& loads, const Eigen::Matrix3Xd& from, const BodyState& to,
+GuardFinding StepJudge::judge(const Loads& loads, const Eigen::Matrix3Xd& from, const BodyState& to, double given,
                               Worth& before) {
   if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
   Worth next = worth(to, 0);
   if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-  const double gain = next.energy() - before.energy() - work(loads, from, to.positions);
+  const double gain = next.energy() - before.energy() - work(loads, from, to.positions) + given;
   next.surplus = std::max(0.0, before.surplus + gain);
   const double present = std::abs(next.energy());
   const double rounding = k_guard_rounding * (present + std::abs(before.energy()));
@@ -99,6 +107,12 @@ GuardFinding StepJudge::judge(const Loads& loads, const Eigen::Matrix3Xd& from, 
   if (counts_inverted_ && next.inverted > before.inverted) return GuardFinding::inversion;
   before = next;
   return GuardFinding::none;
+}
+
+double dead_work(const Loads& loads, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < loads.forces.cols(); ++i) sum += loads.forces.col(i).dot(to.col(i) - from.col(i));
+  return sum;
 }
 
 double kinetic_energy(const System& system, const Eigen::Matrix3Xd& velocities) {
@@ -115,21 +129,36 @@ double kinetic_energy(const System& system, const Eigen::Matrix3Xd& velocities) 
 std::size_t inverted_points(const System& system, const Eigen::Matrix3Xd& positions) {
   const Eigen::Matrix3Xd x = nodes(system, positions);
   double count = 0;
-  for (const ElementBlock& block : system.blocks) {
-    const auto n = static_cast<std::size_t>(block.kind->node_count);
+  for (const ElementBlock& block : system.blocks)
     count += parallel_sum(block.element_count(), 64, [&](std::size_t e) {
       double inverted = 0;
-      for (int q = 0; q < block.kind->point_count; ++q) {
-        Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-        const double* gradient = block.kind->gradients.data() + static_cast<std::size_t>(q) * n * 3;
-        for (std::size_t a = 0; a < n; ++a, gradient += 3)
-          for (int axis = 0; axis < 3; ++axis) jacobian.col(axis) += gradient[axis] * x.col(block.nodes[e * n + a]);
-        if (jacobian.determinant() <= 0) inverted += 1;
-      }
+      for (int q = 0; q < block.kind->point_count; ++q)
+        if (is_inverted(block, e, q, x)) inverted += 1;
       return inverted;
     });
-  }
   return static_cast<std::size_t>(count);
+}
+
+void mark_turned(const System& system, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, double influence,
+                 std::vector<std::uint8_t>& marks) {
+  const Eigen::Matrix3Xd x_from = nodes(system, from), x_to = nodes(system, to);
+  for (const ElementBlock& block : system.blocks)
+    for (std::size_t e = 0; e < block.element_count(); ++e) {
+      bool turned = false;
+      for (int q = 0; q < block.kind->point_count && !turned; ++q)
+        turned = is_inverted(block, e, q, x_to) && !is_inverted(block, e, q, x_from);
+      if (!turned) continue;
+      const auto n = static_cast<std::size_t>(block.kind->node_count);
+      std::map<std::uint32_t, double> weights;
+      for (std::size_t a = 0; a < n; ++a) {
+        const subdiv::StencilRow row = system.rows->row(block.nodes[e * n + a]);
+        for (std::size_t k = 0; k < row.columns.size(); ++k) weights[row.columns[k]] += row.weights[k];
+      }
+      double largest = 0;
+      for (const auto& [point, weight] : weights) largest = std::max(largest, weight);
+      for (const auto& [point, weight] : weights)
+        if (weight > influence * largest) marks[point] = 1;
+    }
 }
 
 }  // namespace argil::fem

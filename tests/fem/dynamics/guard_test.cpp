@@ -219,6 +219,146 @@ TEST(Guard, BoundsForcesThatAreNotThoseOfTheirEnergy) {
   EXPECT_LE(most, 2.05 * begin);
 }
 
+/// A soft cube on the ground that minds being turned inside out, and a tool that holds a patch of its upper face.
+struct HeldCube {
+  HeldCube() : solid(test::box(2, 2, 2, {0.1, 0.1, 0.1}), 0, {1000, 0.3, 1000, 0}), model(*solid.model) {
+    solid.fix([](const Eigen::Vector3d& x) { return x.z() < 1e-9; });
+    model.inversion_is_error = true;
+    solid.system.model = &model;
+    tool.stiffness = 1e5;  // a thousand times the cube's
+    for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
+      if (solid.rest(2, i) > 0.099 && solid.rest(0, i) > 0.049 && solid.rest(1, i) > 0.049)
+        tool.control_points.push_back(static_cast<std::uint32_t>(i));
+    tool.weights.assign(tool.control_points.size(), 1.0 / static_cast<double>(tool.control_points.size()));
+    tool.target = held_point(tool, solid.rest);
+  }
+  Loads loads() const { return {{}, {tool}}; }
+  double from_target() const { return (held_point(tool, solid.state.positions) - tool.target).norm(); }
+  double spring_energy() const { return 0.5 * tool.stiffness * from_target() * from_target(); }
+
+  SimulatedSolid solid;
+  Faulty model;
+  AnchorSpring tool;
+};
+
+TEST(Guard, EasesAToolThatWouldTurnCellsInsideOut) {
+  for (const bool moving : {false, true}) {
+    SCOPED_TRACE(moving);
+    HeldCube cube;
+    cube.tool.target += Eigen::Vector3d(0, 0, -0.12);  // below the ground
+    if (moving)
+      for (Eigen::Index i = 0; i < cube.solid.rest.cols(); ++i)
+        cube.solid.state.velocities(2, i) = -0.1 * cube.solid.rest(2, i);
+    Integrator integrator(cube.solid.system);
+    GuardState guard;
+    const double begin = total(cube.solid) + cube.spring_energy(), away = cube.from_target();
+    const GuardedReport report = guarded_step(integrator, cube.loads(), cube.solid.state, guard, 0.01, {});
+    EXPECT_EQ(report.finding, GuardFinding::inversion);
+    EXPECT_EQ(report.remedy, moving ? GuardRemedy::eased : GuardRemedy::eased_from_rest);
+    EXPECT_LT(report.share, 1);
+    EXPECT_EQ(guard.failures, 0);
+    EXPECT_EQ(inverted_points(cube.solid.system, cube.solid.state.positions), 0U);
+    // The tool has drawn the body some way, and what held it back has given no energy.
+    EXPECT_LT(cube.from_target(), 0.99 * away);
+    EXPECT_LT(total(cube.solid) + cube.spring_energy(), begin);
+  }
+}
+
+TEST(Guard, HoldsCellsOnTheVergeOfTurning) {
+  // Pressed flat by its own weight, a soft column cannot bear its lowest cells; the upper ones settle on them.
+  SimulatedSolid solid(test::box(1, 1, 6, {0.1, 0.1, 0.6}), 0, {300, 0.3, 1000, 0});
+  solid.fix([](const Eigen::Vector3d& x) { return x.z() < 1e-9; });
+  Faulty model(*solid.model);
+  model.inversion_is_error = true;
+  solid.system.model = &model;
+  const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+  Integrator integrator(solid.system);
+  const std::vector<std::uint8_t> fixed = integrator.system().fixed;
+  GuardState guard;
+  int held = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3Xd before = solid.state.positions;
+    const GuardedReport report = guarded_step(integrator, loads, solid.state, guard, 1.0 / 60, {});
+    EXPECT_EQ(integrator.system().fixed, fixed);
+    EXPECT_EQ(inverted_points(solid.system, solid.state.positions), 0U);
+    if (report.remedy != GuardRemedy::held) continue;
+    ++held;
+    int still = 0, moved = 0;
+    for (Eigen::Index c = 0; c < before.cols(); ++c) {
+      if (fixed[static_cast<std::size_t>(c)]) continue;
+      ++(before.col(c) == solid.state.positions.col(c) ? still : moved);
+    }
+    EXPECT_GT(still, 0);
+    EXPECT_GT(moved, 0);
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_FALSE(guard.frozen);
+}
+
+TEST(Guard, TriesAFrozenBodyAgainWhenHalfOfWhatPulledIsGone) {
+  HeldCube cube;
+  Integrator integrator(cube.solid.system);
+  GuardState guard;
+  cube.tool.stiffness = 10;
+  cube.tool.target += Eigen::Vector3d(0, 0, 0.04);
+  const Loads pull = cube.loads();
+  Loads more = pull, less = pull;
+  more.springs[0].target.z() -= 0.0199;
+  less.springs[0].target.z() -= 0.0201;
+  cube.model.broken = true;
+  for (int i = 0; i < 3; ++i) static_cast<void>(guarded_step(integrator, pull, cube.solid.state, guard, 0.01, {}));
+  ASSERT_TRUE(guard.frozen);
+  EXPECT_NEAR(guard.pull, 0.4, 1e-12);
+  cube.model.broken = false;
+  for (const Loads& still : {pull, more}) {
+    EXPECT_EQ(guarded_step(integrator, still, cube.solid.state, guard, 0.01, {}).remedy, GuardRemedy::frozen);
+    EXPECT_EQ(cube.solid.state.positions, cube.solid.rest);
+  }
+  // Tried again in vain it freezes at once, and the lesser load is what counts from then on.
+  cube.model.broken = true;
+  EXPECT_EQ(guarded_step(integrator, less, cube.solid.state, guard, 0.01, {}).finding, GuardFinding::not_finite);
+  EXPECT_TRUE(guard.frozen);
+  EXPECT_NEAR(guard.pull, 0.199, 1e-12);
+  cube.model.broken = false;
+  EXPECT_EQ(guarded_step(integrator, less, cube.solid.state, guard, 0.01, {}).remedy, GuardRemedy::frozen);
+  less.springs.clear();
+  less.forces = gravity_forces(cube.solid.discretization, {0, 0, -1});
+  EXPECT_EQ(guarded_step(integrator, less, cube.solid.state, guard, 0.01, {}).remedy, GuardRemedy::none);
+  EXPECT_EQ(guard, GuardState{.cause = GuardFinding::not_finite});
+  EXPECT_NE(cube.solid.state.positions, cube.solid.rest);
+}
+
+TEST(Guard, AToolTooStrongIsFollowedAndLetGoWithoutHarm) {
+  // Dragged about for a second far out of reach, by every model of motion, the body is back at rest afterwards.
+  for (const Method method : {Method::bdf2, Method::implicit_euler, Method::central_difference}) {
+    SCOPED_TRACE(method_kind(method).name);
+    HeldCube cube;
+    Integrator integrator(cube.solid.system);
+    StepOptions options;
+    options.method = method;
+    GuardState guard;
+    int eased = 0;
+    for (int i = 0; i < 60; ++i) {
+      cube.tool.target += Eigen::Vector3d(0.002, 0.001, -0.004);
+      const GuardedReport report =
+          guarded_step(integrator, cube.loads(), cube.solid.state, guard, 1.0 / 60, options);
+      eased += report.remedy == GuardRemedy::eased || report.remedy == GuardRemedy::eased_from_rest;
+      ASSERT_EQ(inverted_points(cube.solid.system, cube.solid.state.positions), 0U);
+      ASSERT_LT((cube.solid.state.positions - cube.solid.rest).cwiseAbs().maxCoeff(), 0.3);
+    }
+    EXPECT_GT(eased, 0);
+    cube.solid.state.velocities.setZero();
+    for (int i = 0; i < 300; ++i) {
+      StepOptions damped;
+      damped.method = Method::implicit_euler;
+      static_cast<void>(guarded_step(integrator, {}, cube.solid.state, guard, 1.0 / 60, damped));
+    }
+    EXPECT_FALSE(guard.frozen);
+    // The lowest frequency is some 7 rad/s, which implicit Euler damps by ω²h/2 = 0.4 a second.
+    EXPECT_LT((cube.solid.state.positions - cube.solid.rest).cwiseAbs().maxCoeff(), 0.02);
+  }
+}
+
 TEST(Guard, PassesOnWhatIsWrongWithTheArguments) {
   SimulatedSolid solid(test::box(1, 1, 1, {1, 1, 1}), 0);
   Integrator integrator(solid.system);
