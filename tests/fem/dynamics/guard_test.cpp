@@ -30,19 +30,20 @@ class Faulty : public ForceModel {
   Promises promises() const override {
     Promises promises = model_.promises();
     promises.inversion_is_error = inversion_is_error;
+    promises.has_energy = has_energy;
     return promises;
   }
   double energy(const Eigen::Matrix3Xd& x) const override { return model_.energy(x); }
   void forces(const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& forces) const override {
     model_.forces(x, forces);
-    if (broken) forces.setConstant(std::nan(""));
+    if (broken || x.row(2).minCoeff() < floor) forces.setConstant(std::nan(""));
     forces *= sign;
   }
   std::unique_ptr<Tangent> tangent(const Eigen::Matrix3Xd& x, Projection projection) const override {
     return model_.tangent(x, projection);
   }
-  bool broken = false, inversion_is_error = false;
-  double sign = 1;
+  bool broken = false, inversion_is_error = false, has_energy = true;
+  double sign = 1, floor = -1e300;  // below it no force is known
 
  private:
   const ForceModel& model_;
@@ -293,6 +294,64 @@ TEST(Guard, HoldsCellsOnTheVergeOfTurning) {
   }
   EXPECT_GT(held, 0);
   EXPECT_FALSE(guard.frozen);
+}
+
+TEST(Guard, KeepsTheGoodBeginningOfAStep) {
+  SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+  Faulty model(*solid.model);
+  solid.system.model = &model;
+  const double h = 0.01, fall = 9.81 * h * h;
+  // From rest a share s falls s/64 of `fall` in the first of 8 substeps and 36 times as far in all: ½ has no good
+  // substep, 1/8 has one, and 1/256 fails at its end.
+  model.floor = -0.00205 * fall;
+  const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+  Integrator integrator(solid.system);
+  GuardState guard;
+  const GuardedReport report = guarded_step(integrator, loads, solid.state, guard, h, {});
+  EXPECT_EQ(report.finding, GuardFinding::not_finite);
+  EXPECT_EQ(report.remedy, GuardRemedy::eased_from_rest);
+  EXPECT_EQ(report.share, 1.0 / 64);
+  EXPECT_EQ(guard, GuardState{});
+  EXPECT_EQ(solid.state.velocities.norm(), 0);
+  EXPECT_EQ(solid.state.time, h);
+  for (Eigen::Index i = 0; i < solid.rest.cols(); ++i)
+    EXPECT_NEAR(solid.state.positions(2, i), solid.rest(2, i) - fall / 512, 1e-6 * fall);
+}
+
+TEST(Guard, MovesAFreeBodyAsAWholeWhereNothingElseHelps) {
+  // Forces that push away from rest, and an account that is full: every deformation makes energy of nothing.
+  for (const bool pinned : {false, true}) {
+    SCOPED_TRACE(pinned);
+    SimulatedSolid solid(test::box(2, 1, 1, {0.2, 0.1, 0.1}), 0, {1e4, 0.3, 1000, 0});
+    if (pinned) solid.fix([](const Eigen::Vector3d& x) { return x.x() < 1e-9; });
+    Faulty model(*solid.model);
+    model.sign = -1;
+    model.has_energy = false;
+    solid.system.model = &model;
+    solid.state.positions.row(0) *= 1.2;
+    const Loads loads{gravity_forces(solid.discretization, {0, 0, -9.81}), {}};
+    Integrator integrator(solid.system);
+    StepOptions options;
+    options.method = Method::velocity_verlet;
+    GuardState guard{.surplus = 1e3};
+    int whole = 0;
+    const double h = 2e-3;
+    const auto momentum = [&] { return (solid.state.velocities * *solid.system.mass).rowwise().sum().eval(); };
+    for (int i = 0; i < 10; ++i) {
+      const BodyState before = solid.state;
+      const Eigen::Vector3d expected = momentum() + h * loads.forces.rowwise().sum();
+      if (guarded_step(integrator, loads, solid.state, guard, h, options).remedy != GuardRemedy::as_a_whole)
+        continue;
+      ++whole;
+      const Eigen::Matrix3Xd moved = solid.state.positions - before.positions;
+      EXPECT_LT((moved.colwise() - moved.col(0)).cwiseAbs().maxCoeff(), 1e-14);
+      // The body weighs 20 N.
+      EXPECT_LT((momentum() - expected).norm(), 1e-12);
+    }
+    // Once it moves, what is eased to nothing lets it coast.
+    EXPECT_EQ(whole > 0, !pinned);
+    EXPECT_EQ(guard.frozen, pinned);
+  }
 }
 
 TEST(Guard, TriesAFrozenBodyAgainWhenHalfOfWhatPulledIsGone) {
