@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/dynamics/eased_loads.h"
 #include "fem/dynamics/step_judge.h"
 #include "fem/dynamics/whole_motion.h"
 #include "subdiv/error.h"
@@ -15,8 +16,7 @@ namespace {
 
 constexpr int k_substep_rungs[] = {2, 4, 8};
 constexpr double k_guard_newton_tolerance = 1e-6;
-// Of the force out of balance that acts. From rest a spring of a thousand times the body's stiffness draws it by a
-// few times its strain at most.
+// Of the force out of balance that acts. 1/256 lets a tool draw a body that it is a hundred times too strong for.
 constexpr double k_shares_in_motion[] = {1.0 / 2, 1.0 / 8, 0};
 constexpr double k_shares_from_rest[] = {1.0 / 2, 1.0 / 8, 1.0 / 32, 1.0 / 256};
 constexpr double k_shares_held[] = {1, 1.0 / 16};
@@ -44,31 +44,7 @@ BodyState at_rest(const BodyState& state) {
   return result;
 }
 
-/// The loads with a dead force that holds back all but a share of what is out of balance at `positions`.
-Loads eased(const System& system, const Loads& loads, const Eigen::Matrix3Xd& positions, double share) {
-  Eigen::Matrix3Xd node_forces;
-  system.model->forces(nodes(system, positions), node_forces);
-  Eigen::Matrix3Xd unbalanced = generalised_forces(system, node_forces);
-  if (loads.forces.cols() > 0) unbalanced += loads.forces;
-  add_spring_forces(loads.springs, positions, unbalanced);
-  Loads result = loads;
-  if (result.forces.cols() == 0) result.forces.setZero(3, positions.cols());
-  result.forces -= (1 - share) * unbalanced;
-  return result;
-}
-
-/// Sizes of what acts on a body [N].
-struct LoadSize {
-  double dead = 0, pull = 0;
-};
-LoadSize size_of(const Loads& loads, const Eigen::Matrix3Xd& positions) {
-  LoadSize result;
-  for (Eigen::Index i = 0; i < loads.forces.cols(); ++i) result.dead += loads.forces.col(i).norm();
-  for (const AnchorSpring& spring : loads.springs)
-    result.pull += spring.stiffness * (spring.target - held_point(spring, positions)).norm();
-  return result;
-}
-
+/// True if less than half is left of what acted when the body froze.
 bool has_lessened(const Loads& loads, const Eigen::Matrix3Xd& positions, const GuardState& guard) {
   const LoadSize load = size_of(loads, positions);
   return load.dead < k_guard_thaw * guard.dead_load || load.pull < k_guard_thaw * guard.pull;

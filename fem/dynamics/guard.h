@@ -25,12 +25,12 @@
 //   depend most are held where they are for this step, as by pins, and more of them if that is not enough, under
 //   the whole load or 1/16 of what is out of balance;
 // * the good beginning of the first of the steps eased from rest that had one, the body being stopped there;
-// * as a whole: a body without pins keeps its shape for this step, and moves with its momentum and its loads.
-// The work is that of the true loads in all of them: what holds back may take energy, and if it gives any, that has
-// come from nowhere. If none helps the body stays where it was for this step, at rest. After three such failures it
-// is frozen, until it is thawed or until less than half is left of the dead loads, or of the pull of springs, that
-// acted when it froze: then it is tried again by itself, and one more failure freezes it. An untroubled step with
-// no energy on the account forgets failures.
+// * as a whole: a body without pins, if its forces are finite, keeps its shape and moves as its momentum and loads
+// do. What holds back in an eased step may give back what it took in the same step; more of it counts as energy
+// from nowhere, and pins do no work. If none helps the body stays where it was for this step, at rest. After three
+// such failures it is frozen, until it is thawed or until less than half is left of the dead loads, or of the pull
+// of springs, that acted when it froze: then it is tried again by itself, and one more failure freezes it. An
+// untroubled step with no energy on the account forgets failures.
 
 #include <array>
 #include <string>
