@@ -104,8 +104,8 @@ class RandomForces {
 };
 
 struct Tally {
-  long sessions = 0, refused = 0, gentle = 0, frozen = 0, frozen_at_times = 0, eased_at_end = 0, steps = 0,
-       sessions_with_help = 0;
+  long sessions = 0, refused = 0, gentle = 0, frozen = 0, frozen_at_times = 0, eased_at_end = 0, coasting = 0,
+       steps = 0, sessions_with_help = 0;
   std::map<std::string, long> found, helped, frozen_by, help_by_method, sessions_by_method, sessions_by_model;
   std::map<std::string, std::map<std::string, long>> remedies_by_model;  // sessions that needed it
   double worst_gentle = 0;
@@ -119,6 +119,7 @@ struct Tally {
     frozen += other.frozen;
     frozen_at_times += other.frozen_at_times;
     eased_at_end += other.eased_at_end;
+    coasting += other.coasting;
     steps += other.steps;
     sessions_with_help += other.sessions_with_help;
     for (const auto& [name, count] : other.found) found[name] += count;
@@ -192,6 +193,7 @@ void run_session(std::uint32_t seed, Tally& tally) {
     tally.most_iterations = std::max(tally.most_iterations, static_cast<long>(step.linear_iterations));
     if (step.remedy == fem::GuardRemedy::none) continue;
     remedies.insert(step.remedy);
+    tally.coasting += step.remedy == fem::GuardRemedy::implicit_euler && !step.converged && step.residual > 0.5;
     ++tally.found[std::string(fem::word(step.finding))];
     ++tally.helped[std::string(fem::word(step.remedy))];
   }
@@ -249,6 +251,7 @@ TEST(RandomForcesSlow, LoseNoBody) {
              tally.refused, tally.steps, tally.most_iterations);
   fmt::print("guard acted in {} sessions; found: {}; steps: {}\n", tally.sessions_with_help, counts(tally.found),
              counts(tally.helped));
+  fmt::print("of the steps by implicit Euler {} left more than half of the residual\n", tally.coasting);
   for (const auto& [method, count] : tally.sessions_by_method)
     fmt::print("  {:<20} {:>4} sessions, helped in {:>4}\n", method, count, tally.help_by_method[method]);
   for (const auto& [model, count] : tally.sessions_by_model)
