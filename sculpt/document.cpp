@@ -292,6 +292,10 @@ std::uint64_t Document::state_hash() const {
     hash.add(static_cast<std::uint64_t>(s.guard.failures));
     hash.add(std::uint64_t{s.guard.frozen});
     hash.add(static_cast<std::uint64_t>(s.guard.cause));
+    if (s.guard.dead_load != 0 || s.guard.pull != 0) {
+      hash.add(s.guard.dead_load);
+      hash.add(s.guard.pull);
+    }
   }
   return hash.value();
 }

@@ -28,6 +28,7 @@ struct StepRecord {
   fem::PreconditionerKind solver = fem::PreconditionerKind::none;  // none: explicit, or frozen
   fem::GuardFinding finding = fem::GuardFinding::none;             // what the guard saw, and what helped
   fem::GuardRemedy remedy = fem::GuardRemedy::none;
+  double share = 1;  // of the force out of balance that an eased step let through
   int substeps = 1;
   double ms = 0, ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
 };

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "sculpt/commands/edit.h"
 
 namespace argil::sculpt {
@@ -74,8 +77,9 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
     record.substeps = std::max(record.substeps, report.substeps);
     if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
     record.remedy = std::max(record.remedy, report.remedy);
+    record.share = std::min(record.share, report.share);
   }
-  const bool frozen_now = next.guard.frozen && !was_frozen;
+  const bool frozen_now = next.guard.frozen && !was_frozen, thawed_now = was_frozen && !next.guard.frozen;
   const fem::GuardFinding cause = next.guard.cause;
   next.motion = motion;
   document.assign(std::move(next));
@@ -84,18 +88,24 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
   if (frozen_now)
     session.print(
         fmt::format("the body is frozen at {:.6g} s: {} steps could not be saved from {}; undo, lower the "
-                    "loads, step less far or choose another integrator or model, then `guard thaw`",
+                    "loads, step less far or choose another integrator or model, then `guard thaw`; it is tried "
+                    "again by itself when less than half of what acts on it is left",
                     motion->time, fem::k_guard_failures, cause_of(cause)));
+  if (thawed_now)
+    session.print(fmt::format("the body moves again from {:.6g} s on, with less than half of what froze it",
+                              motion->time - time_step));
 }
 
 void report_guard(const Session& session, std::size_t first_step) {
   std::array<std::size_t, fem::k_guard_findings.size()> findings{};
   std::array<std::size_t, fem::k_guard_remedies.size()> remedies{};
   std::size_t steps = 0;
+  double share = 1;
   for (std::size_t i = first_step; i < session.steps().size(); ++i) {
     const StepRecord& record = session.steps()[i];
     if (record.remedy == fem::GuardRemedy::none) continue;
     ++steps;
+    share = std::min(share, record.share);
     for (std::size_t k = 0; k < findings.size(); ++k) findings[k] += record.finding == fem::k_guard_findings[k];
     for (std::size_t k = 0; k < remedies.size(); ++k) remedies[k] += record.remedy == fem::k_guard_remedies[k];
   }
@@ -105,10 +115,19 @@ void report_guard(const Session& session, std::size_t first_step) {
     if (findings[k])
       causes +=
           fmt::format("{}{} from {}", causes.empty() ? "" : ", ", findings[k], cause_of(fem::k_guard_findings[k]));
-  static constexpr const char* k_help[] = {"saved by substeps", "by more Newton iterations", "by implicit Euler",
-                                           "taken back", "passed frozen"};
+  static constexpr std::array k_help{"saved by substeps",
+                                     "by more Newton iterations",
+                                     "by implicit Euler",
+                                     "with loads eased",
+                                     "from rest with loads eased",
+                                     "from rest with cells held",
+                                     "moved as a whole",
+                                     "taken back",
+                                     "passed frozen"};
+  static_assert(k_help.size() == fem::k_guard_remedies.size());
   for (std::size_t k = 0; k < remedies.size(); ++k)
     if (remedies[k]) helped += fmt::format("{}{} {}", helped.empty() ? "" : ", ", remedies[k], k_help[k]);
+  if (share < 1) helped += fmt::format("; eased: as little as {:.2g} of the force out of balance acted", share);
   session.print(fmt::format("guard: {} of {} steps{}{}: {}", steps, session.steps().size() - first_step,
                             causes.empty() ? "" : ", ", causes, helped));
 }

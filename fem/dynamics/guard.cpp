@@ -1,12 +1,13 @@
 #include "fem/dynamics/guard.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
-#include "fem/parallel.h"
+#include "fem/dynamics/eased_loads.h"
+#include "fem/dynamics/step_judge.h"
+#include "fem/dynamics/whole_motion.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
@@ -15,161 +16,215 @@ namespace {
 
 constexpr int k_substep_rungs[] = {2, 4, 8};
 constexpr double k_guard_newton_tolerance = 1e-6;
+// Of the force out of balance that acts. 1/256 lets a tool draw a body that it is a hundred times too strong for.
+constexpr double k_shares_in_motion[] = {1.0 / 2, 1.0 / 8, 0};
+constexpr double k_shares_from_rest[] = {1.0 / 2, 1.0 / 8, 1.0 / 32, 1.0 / 256};
+constexpr double k_shares_held[] = {1, 1.0 / 16};
+// Of the largest influence that a control point has on a cell that would turn: those that have more are held.
+constexpr double k_influence_held[] = {0.75, 0.25, 0};
+constexpr int k_eased_parts = 8;
 
-/// What the last good state is worth, and by which the steps that follow it are judged.
-struct Ledger {
-  double kinetic = 0, elastic = 0, surplus = 0;
-  std::size_t inverted = 0;
-  double energy() const { return kinetic + elastic; }
+void add(StepReport& sum, const StepReport& report) {
+  const StepReport before = sum;
+  sum = report;
+  sum.newton_iterations += before.newton_iterations;
+  sum.linear_iterations += before.linear_iterations;
+  sum.ms_forces += before.ms_forces;
+  sum.ms_tangent += before.ms_tangent;
+  sum.ms_solve += before.ms_solve;
+  sum.ms_line_search += before.ms_line_search;
+}
+
+/// The body where it is, at rest and without history.
+BodyState at_rest(const BodyState& state) {
+  BodyState result;
+  result.positions = state.positions;
+  result.velocities.setZero(3, state.positions.cols());
+  result.time = state.time;
+  return result;
+}
+
+/// True if less than half is left of what acted when the body froze.
+bool has_lessened(const Loads& loads, const Eigen::Matrix3Xd& positions, const GuardState& guard) {
+  const LoadSize load = size_of(loads, positions);
+  return load.dead < k_guard_thaw * guard.dead_load || load.pull < k_guard_thaw * guard.pull;
+}
+
+/// One way to take a step.
+struct Attempt {
+  StepOptions options;
+  int parts = 1;
+  GuardRemedy remedy = GuardRemedy::none;
+  double share = 1;  // of the force out of balance
 };
-
-double extent(const Eigen::Matrix3Xd& positions) {
-  if (positions.cols() == 0) return 0;
-  Eigen::Vector3d low = positions.col(0), high = low;
-  for (Eigen::Index i = 1; i < positions.cols(); ++i) {
-    low = low.cwiseMin(positions.col(i));
-    high = high.cwiseMax(positions.col(i));
-  }
-  return (high - low).norm();
-}
-
-/// Work of loads and springs on the way, their forces and targets standing still.
-double work(const Loads& loads, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  double sum = 0;
-  if (loads.forces.cols() > 0)
-    for (Eigen::Index i = 0; i < to.cols(); ++i) sum += loads.forces.col(i).dot(to.col(i) - from.col(i));
-  for (const AnchorSpring& spring : loads.springs)
-    sum += 0.5 * spring.stiffness *
-           ((held_point(spring, from) - spring.target).squaredNorm() -
-            (held_point(spring, to) - spring.target).squaredNorm());
-  return sum;
-}
-
-/// Of a model without an energy, what it would have were its forces linear in the displacement from the rest shape
-/// turned along: −½ f · (x − R X).
-double energy_of_forces(const System& system, const Eigen::Matrix3Xd& positions) {
-  const Eigen::Matrix3Xd x = nodes(system, positions);
-  const Eigen::Matrix3Xd& rest = *system.rest_nodes;
-  Eigen::Matrix3Xd forces;
-  system.model->forces(x, forces);
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero(), rest_middle = Eigen::Vector3d::Zero();
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    middle += x.col(i);
-    rest_middle += rest.col(i);
-  }
-  middle /= static_cast<double>(std::max<Eigen::Index>(1, x.cols()));
-  rest_middle /= static_cast<double>(std::max<Eigen::Index>(1, x.cols()));
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    moments += (x.col(i) - middle) * (rest.col(i) - rest_middle).transpose();
-  if (!moments.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d signs = Eigen::Matrix3d::Identity();
-  signs(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs * svd.matrixV().transpose();
-  double sum = 0;
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    sum -= 0.5 * forces.col(i).dot(x.col(i) - middle - rotation * (rest.col(i) - rest_middle));
-  return std::abs(sum);
-}
 
 class Ladder {
  public:
-  Ladder(Integrator& integrator, const Loads& loads, const BodyState& begin, const GuardState& guard,
-         double time_step, Clock clock)
-      : integrator_(integrator), loads_(loads), begin_(begin), time_step_(time_step), clock_(clock) {
-    const Promises promises = integrator.system().model->promises();
-    has_energy_ = promises.has_energy;
-    counts_inverted_ = promises.inversion_is_error && !integrator.system().blocks.empty();
-    const double size = k_guard_negligible * extent(*integrator.system().rest_nodes);
-    double mass = 0;
-    for (Eigen::Index c = 0; c < integrator.system().mass->outerSize(); ++c)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(*integrator.system().mass, c); it; ++it)
-        mass += it.value();
-    negligible_ = 0.5 * mass * size * size;
-    first_ = ledger_of(begin);
-    first_.surplus = guard.surplus;
+  Ladder(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard, double time_step,
+         Clock clock)
+      : integrator_(integrator),
+        loads_(loads),
+        state_(state),
+        guard_(guard),
+        time_step_(time_step),
+        clock_(clock),
+        judge_(integrator),
+        given_(state),
+        begin_(state),
+        given_worth_(judge_.worth(state, guard.surplus)),
+        worth_(given_worth_) {}
+
+  /// True if the step is good, which is then taken.
+  bool take(const Attempt& attempt) {
+    BodyState trial = begin_;
+    Worth worth = worth_;
+    StepReport sum;
+    int parts = 0;
+    const GuardFinding finding = last_ = run(attempt, trial, worth, sum, parts);
+    if (finding != GuardFinding::none) {
+      if (report.finding == GuardFinding::none) report.finding = finding;
+      // The larger shares come first.
+      if (attempt.remedy == GuardRemedy::eased_from_rest && parts > 0 && !broken_off_) {
+        Kept kept{attempt, std::move(trial), worth, sum};
+        kept.attempt.share *= static_cast<double>(parts) / attempt.parts;
+        broken_off_ = std::move(kept);
+      }
+      return false;
+    }
+    keep({attempt, std::move(trial), worth, sum});
+    return true;
   }
 
-  /// Tries the step in parts; `state`, `surplus` and `report` are set if it is good.
-  GuardFinding attempt(const StepOptions& options, int parts, BodyState& state, double& surplus,
-                       StepReport& report) {
-    BodyState trial = begin_;
-    Ledger ledger = first_;
+  /// Takes the good beginning of an attempt from rest, and stops the body there.
+  bool take_broken_off() {
+    if (!broken_off_) return false;
+    Kept kept = std::move(*broken_off_);
+    kept.state = at_rest(kept.state);
+    kept.worth.surplus = std::max(0.0, kept.worth.surplus - kept.worth.kinetic);
+    keep(std::move(kept));
+    return true;
+  }
+
+  /// The motion that the body had counts again.
+  bool take_as_a_whole() {
+    const System& system = integrator_.system();
+    if (last_ == GuardFinding::not_finite || !moves_as_a_whole(system)) return false;
+    Kept kept{{{}, 1, GuardRemedy::as_a_whole}, given_, given_worth_, {}};
+    step_as_a_whole(system, loads_, kept.state, time_step_);
+    if (judge_.judge(loads_, given_.positions, kept.state, 0, kept.worth) != GuardFinding::none) return false;
+    kept.sum.converged = true;
+    kept.sum.preconditioner = PreconditionerKind::none;
+    keep(std::move(kept));
+    return true;
+  }
+
+  /// Goes on from the body at rest. The motion that is lost pays back what was made of nothing; what is stored
+  /// stays on the account.
+  void stop() {
+    begin_ = at_rest(begin_);
+    worth_.surplus = std::max(0.0, worth_.surplus - worth_.kinetic);
+    worth_.kinetic = 0;
+  }
+  /// Tries a step with the cells held that turned inside out in the last attempt, and if others do, those as well.
+  bool take_holding(const Attempt& attempt) {
+    const Pins pins(integrator_);
+    for (const double influence : k_influence_held) {
+      if (turned_.cols() == 0) return false;
+      if (held_.empty()) held_ = pins.given;
+      mark_turned(integrator_.system(), begin_.positions, turned_, influence, held_);
+      if (std::find(held_.begin(), held_.end(), std::uint8_t{0}) == held_.end()) return false;
+      integrator_.set_fixed(held_);
+      if (take(attempt)) return true;
+    }
+    return false;
+  }
+  bool moves() const { return worth_.kinetic > 0; }
+
+  void stand_still() {
+    stop();
+    state_ = begin_;
+    state_.time += time_step_;
+    guard_.surplus = worth_.surplus;
+  }
+
+  GuardedReport report;
+
+ private:
+  /// Gives the integrator its own pins back at the end.
+  struct Pins {
+    explicit Pins(Integrator& of) : integrator(of), given(of.system().fixed) {}
+    ~Pins() { integrator.set_fixed(given); }
+    Pins(const Pins&) = delete;
+    Pins& operator=(const Pins&) = delete;
+    Integrator& integrator;
+    std::vector<std::uint8_t> given;
+  };
+
+  struct Kept {
+    Attempt attempt;
+    BodyState state;
+    Worth worth;
     StepReport sum;
-    for (int part = 0; part < parts; ++part) {
-      const Eigen::Matrix3Xd from = trial.positions;
+  };
+  void keep(Kept kept) {
+    kept.state.time = begin_.time + time_step_;
+    state_ = std::move(kept.state);
+    guard_.surplus = kept.worth.surplus;
+    report.step = kept.sum;
+    report.remedy = kept.attempt.remedy;
+    report.substeps = kept.attempt.parts;
+    report.share = kept.attempt.share;
+  }
+
+  /// `trial`, `worth` and `parts` are those of the last good part.
+  GuardFinding run(const Attempt& attempt, BodyState& trial, Worth& worth, StepReport& sum, int& parts) {
+    turned_.resize(3, 0);
+    Loads held_back;
+    double held_back_work = 0;  // of the dead force that eases, over the step until here [J]
+    if (attempt.share < 1) {
+      held_back = eased(integrator_.system(), loads_, trial.positions, attempt.share);
+      if (!held_back.forces.allFinite()) return GuardFinding::not_finite;
+    }
+    for (; parts < attempt.parts; ++parts) {
+      BodyState next = trial;
       try {
-        add(sum, integrator_.step(loads_, trial, time_step_ / parts, options, clock_));
+        add(sum, integrator_.step(attempt.share < 1 ? held_back : loads_, next, time_step_ / attempt.parts,
+                                  attempt.options, clock_));
       } catch (const Error& error) {
         if (error.code() != ErrorCode::not_converged) throw;
         return GuardFinding::not_finite;
       }
-      const GuardFinding finding = judge(from, trial, ledger);
+      // The force that eases may give back what it has taken in this step; more has come from nowhere.
+      double given = 0;
+      if (attempt.share < 1) {
+        held_back_work += dead_work(held_back, trial.positions, next.positions) -
+                          dead_work(loads_, trial.positions, next.positions);
+        given = std::max(0.0, held_back_work);
+        held_back_work -= given;
+      }
+      const GuardFinding finding =
+          judge_.judge(attempt.share < 1 ? held_back : loads_, trial.positions, next, given, worth);
+      if (finding == GuardFinding::inversion) turned_ = next.positions;
       if (finding != GuardFinding::none) return finding;
+      trial = std::move(next);
     }
-    trial.time = begin_.time + time_step_;
-    state = std::move(trial);
-    surplus = ledger.surplus;
-    report = sum;
     return GuardFinding::none;
-  }
-
- private:
-  Ledger ledger_of(const BodyState& state) {
-    Ledger result;
-    result.kinetic = kinetic_energy(integrator_.system(), state.velocities);
-    result.elastic = has_energy_ ? integrator_.elastic_energy(state.positions)
-                                 : energy_of_forces(integrator_.system(), state.positions);
-    if (counts_inverted_) result.inverted = inverted_points(integrator_.system(), state.positions);
-    return result;
-  }
-
-  GuardFinding judge(const Eigen::Matrix3Xd& from, const BodyState& to, Ledger& ledger) {
-    if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
-    Ledger next = ledger_of(to);
-    if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-    const double gain = next.energy() - ledger.energy() - work(loads_, from, to.positions);
-    next.surplus = std::max(0.0, ledger.surplus + gain);
-    const double present = std::abs(next.energy());
-    const double rounding = k_guard_rounding * (present + std::abs(ledger.energy()));
-    if (next.surplus <= rounding) next.surplus = 0;
-    if (next.surplus > k_guard_share * present + negligible_ && gain > rounding) return GuardFinding::energy;
-    if (counts_inverted_ && next.inverted > ledger.inverted) return GuardFinding::inversion;
-    ledger = next;
-    return GuardFinding::none;
-  }
-
-  static void add(StepReport& sum, const StepReport& report) {
-    const StepReport before = sum;
-    sum = report;
-    sum.newton_iterations += before.newton_iterations;
-    sum.linear_iterations += before.linear_iterations;
-    sum.ms_forces += before.ms_forces;
-    sum.ms_tangent += before.ms_tangent;
-    sum.ms_solve += before.ms_solve;
-    sum.ms_line_search += before.ms_line_search;
   }
 
   Integrator& integrator_;
   const Loads& loads_;
-  const BodyState& begin_;
+  BodyState& state_;
+  GuardState& guard_;
   double time_step_;
   Clock clock_;
-  bool has_energy_ = true, counts_inverted_ = false;
-  double negligible_ = 0;
-  Ledger first_;
+  StepJudge judge_;
+  BodyState given_, begin_;
+  Worth given_worth_, worth_;
+  Eigen::Matrix3Xd turned_;  // where the last attempt had turned cells inside out; else empty
+  GuardFinding last_ = GuardFinding::none;
+  std::optional<Kept> broken_off_;
+  std::vector<std::uint8_t> held_;  // control points
 };
-
-/// The body as it was, at rest and without history.
-void stand_still(BodyState& state, double time_step) {
-  const double time = state.time + time_step;
-  Eigen::Matrix3Xd positions = std::move(state.positions);
-  state = BodyState{};
-  state.velocities.setZero(3, positions.cols());
-  state.positions = std::move(positions);
-  state.time = time;
-}
 
 }  // namespace
 
@@ -197,6 +252,14 @@ std::string_view word(GuardRemedy remedy) {
       return "iterations";
     case GuardRemedy::implicit_euler:
       return "implicit_euler";
+    case GuardRemedy::eased:
+      return "eased";
+    case GuardRemedy::eased_from_rest:
+      return "eased_from_rest";
+    case GuardRemedy::held:
+      return "held";
+    case GuardRemedy::as_a_whole:
+      return "as_a_whole";
     case GuardRemedy::restored:
       return "restored";
     case GuardRemedy::frozen:
@@ -205,85 +268,69 @@ std::string_view word(GuardRemedy remedy) {
   return "";
 }
 
-double kinetic_energy(const System& system, const Eigen::Matrix3Xd& velocities) {
-  const Eigen::SparseMatrix<double>& mass = *system.mass;
-  return 0.5 * parallel_sum(static_cast<std::size_t>(mass.outerSize()), 256, [&](std::size_t c) {
-           const auto column = static_cast<Eigen::Index>(c);
-           Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-           for (Eigen::SparseMatrix<double>::InnerIterator it(mass, column); it; ++it)
-             momentum += it.value() * velocities.col(it.row());
-           return momentum.dot(velocities.col(column));
-         });
-}
-
-std::size_t inverted_points(const System& system, const Eigen::Matrix3Xd& positions) {
-  const Eigen::Matrix3Xd x = nodes(system, positions);
-  double count = 0;
-  for (const ElementBlock& block : system.blocks) {
-    const auto n = static_cast<std::size_t>(block.kind->node_count);
-    count += parallel_sum(block.element_count(), 64, [&](std::size_t e) {
-      double inverted = 0;
-      for (int q = 0; q < block.kind->point_count; ++q) {
-        Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-        const double* gradient = block.kind->gradients.data() + static_cast<std::size_t>(q) * n * 3;
-        for (std::size_t a = 0; a < n; ++a, gradient += 3)
-          for (int axis = 0; axis < 3; ++axis) jacobian.col(axis) += gradient[axis] * x.col(block.nodes[e * n + a]);
-        if (jacobian.determinant() <= 0) inverted += 1;
-      }
-      return inverted;
-    });
-  }
-  return static_cast<std::size_t>(count);
-}
-
 GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard,
                            double time_step, const StepOptions& options, Clock clock) {
-  GuardedReport report;
-  if (guard.frozen) {
-    stand_still(state, time_step);
+  if (guard.frozen && !has_lessened(loads, state.positions, guard)) {
+    GuardedReport report;
+    const double time = state.time + time_step;
+    state = at_rest(state);
+    state.time = time;
     report.remedy = GuardRemedy::frozen;
     report.step.converged = true;
     report.step.preconditioner = PreconditionerKind::none;
     return report;
   }
-  const BodyState begin = state;
-  Ladder ladder(integrator, loads, begin, guard, time_step, clock);
-  const auto attempt = [&](const StepOptions& by, int parts, GuardRemedy remedy) {
-    const GuardFinding finding = ladder.attempt(by, parts, state, guard.surplus, report.step);
-    if (finding != GuardFinding::none) {
-      if (report.finding == GuardFinding::none) report.finding = finding;
-      return false;
-    }
-    report.remedy = remedy;
-    report.substeps = parts;
-    return true;
-  };
-
-  if (attempt(options, 1, GuardRemedy::none)) {
+  if (guard.frozen) {
+    guard.frozen = false;
+    guard.failures = k_guard_failures - 1;
+    guard.dead_load = guard.pull = 0;
+  }
+  Ladder ladder(integrator, loads, state, guard, time_step, clock);
+  if (ladder.take({options})) {
     if (guard.surplus == 0) guard.failures = 0;
-    return report;
+    return ladder.report;
   }
   for (const int parts : k_substep_rungs)
-    if (attempt(options, parts, GuardRemedy::substeps)) return report;
+    if (ladder.take({options, parts, GuardRemedy::substeps})) return ladder.report;
   StepOptions careful = options;
   careful.line_search = true;
   careful.newton_cap = std::max(options.newton_cap, k_guard_newton_cap);
   careful.newton_tolerance = std::min(options.newton_tolerance, k_guard_newton_tolerance);
   if (method_kind(options.method).is_implicit && options.method != Method::semi_implicit &&
-      attempt(careful, 1, GuardRemedy::iterations))
-    return report;
+      ladder.take({careful, 1, GuardRemedy::iterations}))
+    return ladder.report;
   careful.method = Method::implicit_euler;
-  for (const int parts : {1, 8})
-    if (attempt(careful, parts, GuardRemedy::implicit_euler)) return report;
+  for (const int parts : {1, k_eased_parts})
+    if (ladder.take({careful, parts, GuardRemedy::implicit_euler})) return ladder.report;
+  if (ladder.moves())
+    for (const double share : k_shares_in_motion)
+      if (ladder.take({careful, k_eased_parts, GuardRemedy::eased, share})) return ladder.report;
+  ladder.stop();
+  // Newton's method may find no way down the residual of forces whose tangent is another's; a single solve needs
+  // none.
+  StepOptions one_solve = careful;
+  one_solve.method = Method::semi_implicit;
+  const bool has_energy = integrator.system().model->promises().has_energy;
+  for (const double share : k_shares_from_rest) {
+    if (ladder.take({careful, k_eased_parts, GuardRemedy::eased_from_rest, share})) return ladder.report;
+    if (!has_energy && ladder.take({one_solve, k_eased_parts, GuardRemedy::eased_from_rest, share}))
+      return ladder.report;
+  }
+  for (const double share : k_shares_held)
+    if (ladder.take_holding({careful, k_eased_parts, GuardRemedy::held, share})) return ladder.report;
+  if (ladder.take_broken_off()) return ladder.report;
+  if (ladder.take_as_a_whole()) return ladder.report;
 
-  guard.cause = report.finding;
+  ladder.stand_still();
+  guard.cause = ladder.report.finding;
   guard.frozen = ++guard.failures >= k_guard_failures;
-  // What stands still has paid back its motion; what is stored stays on the account.
-  guard.surplus = std::max(0.0, guard.surplus - kinetic_energy(integrator.system(), begin.velocities));
-  state = begin;
-  stand_still(state, time_step);
-  report.remedy = guard.frozen ? GuardRemedy::frozen : GuardRemedy::restored;
-  return report;
+  if (guard.frozen) {
+    const LoadSize load_now = size_of(loads, state.positions);
+    guard.dead_load = load_now.dead;
+    guard.pull = load_now.pull;
+  }
+  ladder.report.remedy = guard.frozen ? GuardRemedy::frozen : GuardRemedy::restored;
+  return ladder.report;
 }
 
 }  // namespace argil::fem

@@ -13,10 +13,24 @@
 // Newton's tolerance adds is some 1e-4 of it. Motion of less than a hundredth of the body's size a second is let
 // pass, since nothing is lost by it.
 //
-// A refused step is taken back, and tried again by a ladder of remedies, each from the last good state: 2, 4 and 8
-// substeps; Newton's method with line search and up to 50 iterations (implicit methods); implicit Euler with both,
-// in 1 and in 8 substeps. If none helps the body stays where it was for this step, at rest; after three such
-// failures it is frozen until it is thawed. An untroubled step with no energy on the account forgets failures.
+// A refused step is taken back, and tried again by a ladder of remedies, each from the last good state:
+// * 2, 4 and 8 substeps;
+// * Newton's method with line search and up to 50 iterations (implicit methods);
+// * implicit Euler with both, in 1 and in 8 substeps, and in 8 substeps for all that follows;
+// * eased: of the force that is out of balance at the start (loads, springs and the body's answer) only 1/2, 1/8 or
+//   nothing acts, a dead force holding back the rest for this step, so that a tool draws the body as far as it can
+//   follow;
+// * eased from rest: the same with 1/2, 1/8, 1/32 and 1/256, the body starting without motion;
+// * held: the body starts without motion, and the control points on which the cells that would turn inside out
+//   depend most are held where they are for this step, as by pins, and more of them if that is not enough, under
+//   the whole load or 1/16 of what is out of balance;
+// * the good beginning of the first of the steps eased from rest that had one, the body being stopped there;
+// * as a whole: a body without pins, if its forces are finite, keeps its shape and moves as its momentum and loads
+// do. What holds back in an eased step may give back what it took in the same step; more of it counts as energy
+// from nowhere, and pins do no work. If none helps the body stays where it was for this step, at rest. After three
+// such failures it is frozen, until it is thawed or until less than half is left of the dead loads, or of the pull
+// of springs, that acted when it froze: then it is tried again by itself, and one more failure freezes it. An
+// untroubled step with no energy on the account forgets failures.
 
 #include <array>
 #include <string>
@@ -30,15 +44,28 @@ inline constexpr double k_guard_share = 0.5;        // of the energy present, th
 inline constexpr double k_guard_rounding = 1e-9;    // of the energy present: no growth
 inline constexpr double k_guard_negligible = 0.01;  // of the body's size a second: motion that harms nothing
 inline constexpr int k_guard_failures = 3;          // failed ladders that freeze a body
+inline constexpr double k_guard_thaw = 0.5;         // of the load at freezing, below which it is tried again
 inline constexpr int k_guard_newton_cap = 50;
 
 enum class GuardFinding { none, not_finite, energy, inversion };
-enum class GuardRemedy { none, substeps, iterations, implicit_euler, restored, frozen };
+enum class GuardRemedy {
+  none,
+  substeps,
+  iterations,
+  implicit_euler,
+  eased,
+  eased_from_rest,
+  held,
+  as_a_whole,
+  restored,
+  frozen
+};
 inline constexpr std::array k_guard_findings{GuardFinding::not_finite, GuardFinding::energy,
                                              GuardFinding::inversion};
-inline constexpr std::array k_guard_remedies{GuardRemedy::substeps, GuardRemedy::iterations,
-                                             GuardRemedy::implicit_euler, GuardRemedy::restored,
-                                             GuardRemedy::frozen};
+inline constexpr std::array k_guard_remedies{
+    GuardRemedy::substeps,   GuardRemedy::iterations,      GuardRemedy::implicit_euler,
+    GuardRemedy::eased,      GuardRemedy::eased_from_rest, GuardRemedy::held,
+    GuardRemedy::as_a_whole, GuardRemedy::restored,        GuardRemedy::frozen};
 [[nodiscard]] std::string_view word(GuardFinding finding);
 [[nodiscard]] std::string_view word(GuardRemedy remedy);
 
@@ -48,6 +75,7 @@ struct GuardState {
   int failures = 0;    // failed ladders that no untroubled step has made up for
   bool frozen = false;
   GuardFinding cause = GuardFinding::none;  // of the last failure
+  double dead_load = 0, pull = 0;           // of a frozen body when it was frozen: Σ |force|, of springs apart [N]
   bool operator==(const GuardState&) const = default;
 };
 
@@ -56,10 +84,11 @@ struct GuardedReport {
   GuardFinding finding = GuardFinding::none;
   GuardRemedy remedy = GuardRemedy::none;
   int substeps = 1;
+  double share = 1;  // of the force out of balance that the step let through
 };
 
-/// One step under guard; at most 17 attempts of substeps in all. A frozen body only gets older. Beside the step it
-/// costs one elastic energy, a mass product, and for models that ask for it the Jacobians.
+/// One step under guard; at most 154 substeps in all. A frozen body only gets older. Beside the step it costs one
+/// elastic energy, a mass product, and for models that ask for it the Jacobians; holding cells factors anew.
 /// @throws Error for what is wrong with the arguments, never for what a method makes of them.
 GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard,
                            double time_step, const StepOptions& options, Clock clock = nullptr);

@@ -291,8 +291,12 @@ std::vector<Command> simulation_commands() {
        .run = set_integrator},
       {.name = "guard",
        .summary = "Watches every step for values that are not finite, energy from nowhere and cells turned inside "
-                  "out; takes such a step back and tries substeps, more Newton iterations, then implicit Euler. A "
-                  "body that nothing helps three times is frozen where it last stood well.",
+                  "out; takes such a step back and tries substeps, more Newton iterations, then implicit Euler. If "
+                  "these fail it eases: only a part of the force out of balance acts in this step, at last on the "
+                  "body brought to rest, or with the cells held that would turn, or moves a free body as a whole. "
+                  "A body that nothing helps three "
+                  "times is frozen where it last stood well, until it is thawed or less than half is left of the "
+                  "loads or the pull that froze it. All of it is printed and counted in the summary.",
        .parameters = {{.name = "what",
                        .type = ArgumentType::word,
                        .help = "on (as at the start), off, or thaw to let a frozen body move again",

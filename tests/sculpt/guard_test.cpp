@@ -88,6 +88,45 @@ TEST(SessionGuard, ReplayTakesTheSameDecisionsAndUndoTakesThemBack) {
   EXPECT_EQ(once.hash(), before);
 }
 
+TEST(SessionGuard, SaysThatAToolWasEased) {
+  std::string printed;
+  SessionOptions options;
+  options.print = [&](const std::string& text) { printed += text + "\n"; };
+  // The tool is a hundred times as stiff as the wedge, which it would pull through itself in one step.
+  TestSession test({"new wedge size 0.2 0.2 0.2", "levels 1", "set young_modulus 1000", "set density 2600",
+                    "space cubic", "pin where x < 0.02", "model st_venant_kirchhoff", "integrator midpoint",
+                    "tool pull radius 0.08 strength 7e4", "step 1 dt 0.015",
+                    "stroke from 0.1 0.1 0 to -0.09 0.28 0.36 ticks 200", "step 20"},
+                   options);
+  EXPECT_THAT(printed, HasSubstr("eased: as little as"));
+  EXPECT_FALSE(test.state().guard.frozen);
+  const auto json = nlohmann::json::parse(summary_json(test.session(), "test", 1));
+  EXPECT_GT(json["guard"]["steps"]["eased"].get<int>() + json["guard"]["steps"]["eased_from_rest"].get<int>(), 0);
+}
+
+TEST(SessionGuard, AFrozenBodyMovesAgainByItselfWhenThePullIsGone) {
+  std::string printed;
+  SessionOptions options;
+  options.print = [&](const std::string& text) { printed += text + "\n"; };
+  TestSession test(k_stiff_bar, options);
+  State frozen = test.state();
+  frozen.guard = {0, 3, true, fem::GuardFinding::inversion};
+  test->change(frozen);
+  const std::uint64_t without = test.hash();
+  frozen.guard.pull = 100;
+  test->change(std::move(frozen));
+  const std::uint64_t cold = test.hash();
+  EXPECT_NE(cold, without);
+  const Eigen::Matrix3Xd positions = test.document().positions();
+  test.run({"step 3 dt 1e-4"});
+  EXPECT_THAT(printed, HasSubstr("the body moves again from 0 s on"));
+  EXPECT_FALSE(test.state().guard.frozen);
+  EXPECT_NE(test.document().positions(), positions);
+  EXPECT_EQ(test->steps().front().remedy, fem::GuardRemedy::none);
+  test.run({"undo"});
+  EXPECT_EQ(test.hash(), cold);
+}
+
 TEST(SessionGuard, OffLetsTheStepFailAndThawIsUndone) {
   TestSession test(k_stiff_bar);
   const std::uint64_t on = test.hash();

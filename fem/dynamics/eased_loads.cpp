@@ -1,0 +1,25 @@
+#include "fem/dynamics/eased_loads.h"
+
+namespace argil::fem {
+
+Loads eased(const System& system, const Loads& loads, const Eigen::Matrix3Xd& positions, double share) {
+  Eigen::Matrix3Xd node_forces;
+  system.model->forces(nodes(system, positions), node_forces);
+  Eigen::Matrix3Xd unbalanced = generalised_forces(system, node_forces);
+  if (loads.forces.cols() > 0) unbalanced += loads.forces;
+  add_spring_forces(loads.springs, positions, unbalanced);
+  Loads result = loads;
+  if (result.forces.cols() == 0) result.forces.setZero(3, positions.cols());
+  result.forces -= (1 - share) * unbalanced;
+  return result;
+}
+
+LoadSize size_of(const Loads& loads, const Eigen::Matrix3Xd& positions) {
+  LoadSize result;
+  for (Eigen::Index i = 0; i < loads.forces.cols(); ++i) result.dead += loads.forces.col(i).norm();
+  for (const AnchorSpring& spring : loads.springs)
+    result.pull += spring.stiffness * (spring.target - held_point(spring, positions)).norm();
+  return result;
+}
+
+}  // namespace argil::fem

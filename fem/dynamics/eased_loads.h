@@ -1,0 +1,19 @@
+#pragma once
+// Loads for a step that the guard eases, and how large loads are.
+
+#include "fem/system.h"
+
+namespace argil::fem {
+
+/// `loads` with a dead force that holds back all but `share` of what is out of balance at `positions`: loads,
+/// springs and the model's forces together. With share 0 a body at rest there stays.
+[[nodiscard]] Loads eased(const System& system, const Loads& loads, const Eigen::Matrix3Xd& positions,
+                          double share);
+
+/// Σ |force| over the control points, and over the springs [N].
+struct LoadSize {
+  double dead = 0, pull = 0;
+};
+[[nodiscard]] LoadSize size_of(const Loads& loads, const Eigen::Matrix3Xd& positions);
+
+}  // namespace argil::fem
