@@ -63,7 +63,7 @@ std::string about(const std::vector<Panel>& panels) {
       ++runs;
       good += row.status == Status::ok ? 1 : 0;
       threads.insert(row.threads);
-      versions.insert(row.version);
+      versions.insert(row.version + " (" + row.commit + ")");
     }
   std::string on;
   for (const int t : threads) on += (on.empty() ? "" : " and ") + fmt::format("{} thread{}", t, t == 1 ? "" : "s");

@@ -7,6 +7,7 @@
 
 #include "sculpt/hash.h"
 #include "subdiv/error.h"
+#include "tools/chart/commit.h"
 #include "tools/chart/memory.h"
 #include "tools/chart/watched_model.h"
 
@@ -134,6 +135,7 @@ Row blank(const Run& run, const Setting& setting) {
   row.same_law = run.problem->holds_for(row.model);
   row.threads = setting.threads;
   row.version = ARGIL_VERSION;
+  row.commit = commit();
   return row;
 }
 

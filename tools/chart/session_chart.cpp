@@ -11,6 +11,7 @@
 #include "subdiv/error.h"
 #include "subdiv/limit.h"
 #include "tools/chart/chart.h"
+#include "tools/chart/commit.h"
 #include "tools/chart/memory.h"
 
 namespace argil::chart {
@@ -296,6 +297,7 @@ Panel chart_session(const SessionFile& session, const Choice& choice, const Sett
     row.same_law = run.model == own.run.model;
     row.threads = setting.threads;
     row.version = ARGIL_VERSION;
+    row.commit = commit();
     try {
       const PeakMemory memory;
       row = compared(std::move(row), replay(session, &run, common, setting, scratch), *reference);

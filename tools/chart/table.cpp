@@ -33,6 +33,7 @@ constexpr std::array k_columns{"key",
                                "peak_resident_bytes",
                                "threads",
                                "version",
+                               "commit",
                                "status",
                                "message",
                                "state_hash"};
@@ -123,6 +124,7 @@ Row row_of(const std::vector<std::string>& cells) {
   row.peak_bytes = parsed<double>(next());
   row.threads = parsed<int>(next());
   row.version = next();
+  row.commit = next();
   const std::string& status = next();
   bool known = false;
   for (const Status s : k_statuses)
@@ -189,6 +191,7 @@ std::string csv_line(const Row& row) {
                          number(row.peak_bytes),
                          fmt::format("{}", row.threads),
                          quoted(row.version),
+                         quoted(row.commit),
                          std::string(word(row.status)),
                          quoted(row.message),
                          fmt::format("{:016x}", row.state_hash)};

@@ -35,7 +35,7 @@ struct Row {
   double ms_per_step = k_nothing, ms_per_simulated_second = k_nothing;
   double peak_bytes = k_nothing;  // growth of the peak of resident memory during the run
   int threads = 0;
-  std::string version;
+  std::string version, commit;  // of argil; a run of another commit is not done again, one of another version is
   Status status = Status::ok;
   std::string message;
   std::uint64_t state_hash = 0;  // of the final positions and velocities

@@ -27,6 +27,7 @@ Row row(const std::string& model, const std::string& space, int resolution, doub
   result.signed_error = sign * error;
   result.threads = 2;
   result.version = "0.1.0";
+  result.commit = "0123456789ab";
   return result;
 }
 

@@ -50,6 +50,7 @@ Row made_up(std::uint64_t key) {
   row.ms = 1e-7;
   row.threads = 2;
   row.version = "0.1.0";
+  row.commit = "0123456789ab-dirty";
   row.message = "a \"quoted\" word, a comma\nand a line";
   row.state_hash = 0xffffffffffffffffULL;
   return row;
@@ -64,6 +65,7 @@ TEST(ChartTable, KeepsEveryDigitAndWord) {
   EXPECT_EQ(again.error, row.error);
   EXPECT_EQ(again.signed_error, row.signed_error);
   EXPECT_EQ(again.ms, row.ms);
+  EXPECT_EQ(again.commit, row.commit);
   EXPECT_TRUE(std::isnan(again.time_step));
   EXPECT_EQ(again.message, "a \"quoted\" word, a comma and a line");  // a row is a line
   EXPECT_EQ(again.state_hash, row.state_hash);
