@@ -24,7 +24,7 @@ struct Part {
 
   std::size_t node_count() const { return static_cast<std::size_t>(block->kind->node_count); }
   std::size_t element_count() const { return block->element_count(); }
-  std::size_t measure_count() const { return topology->edges.size() + topology->corners.size(); }
+  std::size_t measure_count() const { return topology->measure_count(); }
   const std::uint32_t* nodes(std::size_t element) const { return block->nodes.data() + element * node_count(); }
 };
 

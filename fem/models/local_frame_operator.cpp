@@ -1,6 +1,7 @@
 #include "fem/models/local_frame_operator.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -42,6 +43,17 @@ Eigen::Vector3d node(const double* x, int n) {
   return {x[3 * n], x[3 * n + 1], x[3 * n + 2]};
 }
 
+/// Of |s₁ × s₂| and s₁ · s₂.
+struct Angle {
+  Angle(double area, double dot) {
+    const double size = std::sqrt(area * area + dot * dot);  // |s₁| |s₂|
+    if (!(size > 0)) return;
+    cosine = dot / size;
+    sine = area / size;
+  }
+  double cosine = 1, sine = 0;
+};
+
 }  // namespace
 
 const LocalTopology& local_topology(const ElementKind& kind) {
@@ -57,7 +69,9 @@ void local_rest_measures(const LocalTopology& topology, const double* x, double*
   for (const auto& corner : topology.corners) {
     const Eigen::Vector3d first = node(x, corner.first) - node(x, corner.at),
                           second = node(x, corner.second) - node(x, corner.at);
-    *rest_measures++ = std::atan2(first.cross(second).norm(), first.dot(second));
+    const Angle angle(first.cross(second).norm(), first.dot(second));
+    *rest_measures++ = angle.cosine;
+    *rest_measures++ = angle.sine;
   }
 }
 
@@ -76,15 +90,25 @@ void local_displacements(const LocalTopology& topology, int node_count, const do
     add(edge.from, change, -1);
   }
   for (const auto& corner : topology.corners) {
-    const double rest = *rest_measures++;
+    const double rest_cosine = *rest_measures++, rest_sine = *rest_measures++;
     const Eigen::Vector3d first = node(x, corner.first) - node(x, corner.at),
                           second = node(x, corner.second) - node(x, corner.at), cross = first.cross(second);
     const double area = cross.norm();
     if (!(area > 0)) continue;
-    const double half = 0.5 * (rest - std::atan2(area, first.dot(second)));
-    const double sine = std::sin(half) / area, cosine = std::cos(half) - 1;
+    const Angle angle(area, first.dot(second));
+    // Of θ₀ − θ, between −π and π, then of its half δ, without a trigonometric function.
+    const double whole_cosine = rest_cosine * angle.cosine + rest_sine * angle.sine,
+                 whole_sine = rest_sine * angle.cosine - rest_cosine * angle.sine;
+    double cosine = std::sqrt(0.5 * std::max(0.0, 1 + whole_cosine)), sine;
+    if (cosine > 0.5) {
+      sine = 0.5 * whole_sine / cosine;
+    } else {
+      sine = std::copysign(std::sqrt(0.5 * (1 - whole_cosine)), whole_sine);
+      cosine = 0.5 * std::abs(whole_sine / sine);
+    }
+    const double cosine_less_one = -sine * sine / (1 + cosine);
     // Both are at right angles to n: Rot(n, φ) s = cos φ s + sin φ n × s.
-    add(corner.at, cosine * (first + second) + sine * cross.cross(second - first), 1);
+    add(corner.at, cosine_less_one * (first + second) + (sine / area) * cross.cross(second - first), 1);
   }
 }
 

@@ -25,14 +25,17 @@ struct LocalTopology {
   };
   std::vector<Edge> edges;
   std::vector<Corner> corners;
+
+  /// A length an edge, cosine and sine of an angle a corner.
+  [[nodiscard]] std::size_t measure_count() const { return edges.size() + 2 * corners.size(); }
 };
 [[nodiscard]] const LocalTopology& local_topology(const ElementKind& kind);
 
-/// Rest lengths [m] of the edges, then rest angles of the corners, at edges().size() + corners().size() places of
-/// `rest_measures`. `x` is the element's nodes, 3 · node_count.
+/// Rest lengths [m] of the edges, then cosine and sine of the rest angles of the corners, at measure_count() places
+/// of `rest_measures`. `x` is the element's nodes, 3 · node_count.
 void local_rest_measures(const LocalTopology& topology, const double* x, double* rest_measures);
 /// R d, 3 · node_count, overwriting. Edges of no length and corners without a normal are left out. Cost: three
-/// trigonometric functions a corner.
+/// square roots a corner.
 void local_displacements(const LocalTopology& topology, int node_count, const double* rest_measures,
                          const double* x, double* result);
 

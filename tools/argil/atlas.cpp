@@ -103,7 +103,7 @@ int stability_atlas(const AtlasArguments& arguments) {
     options.grid = {.coarse = 6, .depth = 3};
     options.lines = 4;
     options.line_depth = 0;
-    options.criteria.most_steps = 1500;
+    options.criteria.most_steps = 600;
     options.criteria.reference_steps = 150;
   }
   ProbeStore store(arguments.out / "probes.csv");

@@ -26,7 +26,7 @@ double inner(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 Eigen::Matrix3Xd seen_displacements(const Body& body, const Eigen::Matrix3Xd& x) {
   const ElementBlock& block = body.blocks[0];
   const LocalTopology& topology = local_topology(*block.kind);
-  std::vector<double> measures(topology.edges.size() + topology.corners.size());
+  std::vector<double> measures(topology.measure_count());
   Eigen::Matrix3Xd rest(3, block.kind->node_count), present = rest, result = rest;
   for (int a = 0; a < block.kind->node_count; ++a) {
     rest.col(a) = body.rest.col(block.nodes[static_cast<std::size_t>(a)]);
