@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
-#include "fem/spectrum/start_vectors.h"
 #include "fem/solvers/symmetric_factor.h"
+#include "fem/spectrum/start_vectors.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
