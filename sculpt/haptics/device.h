@@ -48,10 +48,17 @@ struct DeviceCapabilities {
   double rate = 1000;        // [1/s], exchanges that it can take
 };
 
+struct ContactModel;
+
 class Device {
  public:
   virtual ~Device() = default;
   virtual DeviceCapabilities capabilities() const = 0;
+
+  /// True for a device that has its servo beside it: it is told contact models, not forces.
+  virtual bool takes_models() const { return false; }
+  /// Hands it the newest model, in its own frame, if it takes any; never waits.
+  virtual void publish(const ContactModel&, Tick /*now*/) {}
 
   /// Hands over the command for the tick that ends now, and returns the newest sample; never waits and never throws
   /// for what the device does (its mode says it). `tick` must not fall.

@@ -126,6 +126,13 @@ TEST(Servo, APassiveWallIsNotWeakenedByTheSafetyChain) {
 
 class ServoFaults : public testing::Test {
  protected:
+  // The hand is carried along by 2.5 mm, which the default does not pay for.
+  static ServoOptions unbounded_energy() {
+    ServoOptions options;
+    options.limits.start_energy = options.limits.max_energy = std::numeric_limits<double>::infinity();
+    return options;
+  }
+
   void publish(double force, Tick valid_until) {
     ContactModel model;
     model.force = Vector3d(force, 0, 0);
@@ -139,19 +146,55 @@ class ServoFaults : public testing::Test {
 };
 
 TEST_F(ServoFaults, NoForceWithoutAModelOrAfterItsTime) {
-  Servo servo(hand_, channel_);
+  Servo servo(hand_, channel_, unbounded_energy());
   for (Tick t = 0; t < 10; ++t) EXPECT_EQ(servo.tick(t).safety.force, Vector3d::Zero());
   publish(0.5, 30);
   for (Tick t = 10; t < 60; ++t) {
     const ServoTick tick = servo.tick(t);
     EXPECT_EQ(tick.model_valid, t <= 30);
-    EXPECT_EQ(tick.safety.force, Vector3d(t <= 30 ? 0.5 : 0, 0, 0)) << t;
+    // From then on it fades in 100 ticks.
+    EXPECT_NEAR(tick.safety.force.x(), t <= 30 ? 0.5 : 0.5 * (1 - static_cast<double>(t - 30) / 100), 1e-15) << t;
   }
+  for (Tick t = 60; t < 180; ++t) {
+    const Vector3d force = servo.tick(t).safety.force;
+    if (t >= 130) {
+      EXPECT_EQ(force, Vector3d::Zero()) << t;
+    }
+  }
+  publish(0.5, 1000);
+  for (Tick t = 180; t < 1000; ++t)
+    EXPECT_NEAR(servo.tick(t).safety.force.x(), 0.5 * std::min(1.0, static_cast<double>(t - 179) / 800), 1e-14);
+}
+
+TEST_F(ServoFaults, AStalledSimulationLetsGoWithin150Milliseconds) {
+  // Models at 60 a second, each good for 50 ms; the simulation stalls at tick 500 with the hand pressed in.
+  ScriptedDevice intention = press();
+  SimulatedHand hand(intention, light_hand());
+  Servo servo(hand, channel_);
+  Vector3d last = Vector3d::Zero();
+  double before = 0, largest_step = 0;
+  for (Tick t = 0; t < 1000; ++t) {
+    if (t <= 500 && t * 60 / 1000 != (t - 1) * 60 / 1000)
+      channel_.publish(message_of(Message::planes_ahead, Vector3d::Zero(), t));
+    const Vector3d force = servo.tick(t).safety.force;
+    if (t == 500) before = force.norm();
+    if (t > 500) largest_step = std::max(largest_step, (force - last).norm());
+    if (t > 500 && t < 540) {
+      EXPECT_NEAR(force.norm(), before, 0.02 * before);
+    }
+    if (t >= 650) {
+      EXPECT_LT(force.norm(), 0.01);
+    }
+    last = force;
+  }
+  EXPECT_GT(before, 1);
+  EXPECT_LE(largest_step, 0.12);
+  std::printf("stalled simulation: %.2f N let go by at most %.4f N/ms\n", before, largest_step);
 }
 
 TEST_F(ServoFaults, APoseThatIsNotANumberStopsTheForceForGood) {
   FaultInjector device(hand_, {{DeviceFault::not_a_number, 20, 20}});
-  Servo servo(device, channel_);
+  Servo servo(device, channel_, unbounded_energy());
   publish(0.5, 1000);
   for (Tick t = 0; t < 100; ++t) {
     const ServoTick tick = servo.tick(t);
@@ -161,7 +204,7 @@ TEST_F(ServoFaults, APoseThatIsNotANumberStopsTheForceForGood) {
 }
 
 TEST_F(ServoFaults, AModelThatIsNotANumberStopsTheForceForGood) {
-  Servo servo(hand_, channel_);
+  Servo servo(hand_, channel_, unbounded_energy());
   publish(0.5, 1000);
   for (Tick t = 0; t < 10; ++t) (void)servo.tick(t);
   publish(std::numeric_limits<double>::quiet_NaN(), 1000);
@@ -173,7 +216,7 @@ TEST_F(ServoFaults, AModelThatIsNotANumberStopsTheForceForGood) {
 
 TEST_F(ServoFaults, AStalledDeviceGetsNoForceAndComesBack) {
   FaultInjector device(hand_, {{DeviceFault::stall, 50, 99}});
-  Servo servo(device, channel_);
+  Servo servo(device, channel_, unbounded_energy());
   publish(0.5, 1000);
   for (Tick t = 0; t < 150; ++t) {
     const bool silent = servo.tick(t).safety.force.isZero(0);
@@ -184,7 +227,7 @@ TEST_F(ServoFaults, AStalledDeviceGetsNoForceAndComesBack) {
 
 TEST_F(ServoFaults, DroppedCommandsExpireInTheDevice) {
   FaultInjector device(hand_, {{DeviceFault::drop, 50, 199}});
-  Servo servo(device, channel_);
+  Servo servo(device, channel_, unbounded_energy());
   publish(0.5, 1000);
   for (Tick t = 0; t < 100; ++t)
     // The command of tick 49 lives for 10 ticks more.
@@ -220,7 +263,7 @@ TEST_F(ServoFaults, ALateDeviceGetsNoForceThatThePassivityObserverCouldNotCount)
 }
 
 TEST_F(ServoFaults, MissedTicksAreCounted) {
-  Servo servo(hand_, channel_);
+  Servo servo(hand_, channel_, unbounded_energy());
   for (const Tick t : {5, 6, 7, 10, 11, 20}) (void)servo.tick(t);
   EXPECT_EQ(servo.missed(), 10);
 }
