@@ -13,6 +13,7 @@ FaultInjector::FaultInjector(Device& device, std::vector<FaultSpan> spans)
     assert(span.amount >= 0);
     longest_delay_ = std::max(longest_delay_, span.amount);
   }
+  samples_.reserve(static_cast<std::size_t>(longest_delay_) + 3);  // one a tick: none is allocated later
 }
 
 DeviceSample FaultInjector::exchange(const ForceCommand& command, Tick tick) {

@@ -269,6 +269,16 @@ int run(int argc, char** argv) {
   atlas_app->footer("A run that was stopped goes on where it was: probes.csv keeps every finished probe.");
   atlas_app->callback([&] { status = stability_atlas(mapping); });
 
+  DevicesArguments handling;
+  CLI::App* devices_app = app.add_subcommand("devices", "Lists the devices to sculpt with, and what they can");
+  devices_app->add_flag("--bench", handling.bench, "how well this machine keeps a tick of 1 ms");
+  devices_app->add_option("--serve", handling.serve, "makes hand, gamepad or space_mouse a device by UDP");
+  devices_app->add_option("--address", handling.address, "IPv4 address to serve at")->capture_default_str();
+  devices_app->add_option("--port", handling.port, "UDP port to serve at; 0: any")->capture_default_str();
+  devices_app->add_option("--seconds", handling.seconds, "of serving or measuring")->check(CLI::Range(0.0, 1e6));
+  devices_app->add_flag("--json", handling.json);
+  devices_app->callback([&] { status = devices_command(handling); });
+
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
   bool document = false;

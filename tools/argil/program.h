@@ -69,6 +69,13 @@ struct ChartArguments {
   double limit = 0;  // seconds a run; 0: as the breadth says
 };
 int chart(const ChartArguments& arguments);
+struct DevicesArguments {
+  bool bench = false, json = false;
+  std::string serve, address = "127.0.0.1";  // a device's name; empty: none is served
+  std::uint16_t port = 7171;
+  double seconds = 0;  // of serving (0: for ever) or of the bench (0: 2 s)
+};
+int devices_command(const DevicesArguments& arguments);
 struct ModesArguments {
   BodyArguments body;
   int count = 6;
