@@ -21,31 +21,39 @@
 namespace {
 thread_local bool counting = false;
 thread_local long allocations = 0, locks = 0;
-}  // namespace
 
-void* operator new(std::size_t size) {
+// Not inlined, or the compiler compares malloc here with what another place frees.
+[[gnu::noinline]] void* take(std::size_t size, std::size_t alignment) {
   if (counting) ++allocations;
-  if (void* const place = std::malloc(size == 0 ? 1 : size)) return place;
-  throw std::bad_alloc();
+  void* const place = alignment == 0
+                          ? std::malloc(size == 0 ? 1 : size)
+                          : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (place == nullptr) throw std::bad_alloc();
+  return place;
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  if (counting) ++allocations;
-  const auto step = static_cast<std::size_t>(alignment);
-  if (void* const place = std::aligned_alloc(step, (size + step - 1) / step * step)) return place;
-  throw std::bad_alloc();
-}
-void operator delete(void* place) noexcept {
+[[gnu::noinline]] void give_back(void* place) {
   if (counting) ++allocations;
   std::free(place);
 }
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return take(size, 0);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return take(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* place) noexcept {
+  give_back(place);
+}
 void operator delete(void* place, std::size_t) noexcept {
-  operator delete(place);
+  give_back(place);
 }
 void operator delete(void* place, std::align_val_t) noexcept {
-  operator delete(place);
+  give_back(place);
 }
 void operator delete(void* place, std::size_t, std::align_val_t) noexcept {
-  operator delete(place);
+  give_back(place);
 }
 
 extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) {
