@@ -116,6 +116,8 @@ HyperelasticKernels hyperelastic_kernels(Law law, const ElementKind& kind, bool 
       return stable_neo_hookean_law_kernels(kind, mean, isa);
     case Law::st_venant_kirchhoff:
       return st_venant_kirchhoff_law_kernels(kind, mean, isa);
+    case Law::neo_hookean:
+      return neo_hookean_law_kernels(kind, mean, isa);
   }
   return {};
 }

@@ -101,6 +101,12 @@ std::span<const ModelKind> model_table() {
        .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                   Formulation) { return make_local_frame_literal(blocks, rest_nodes); },
        .takes_prestress = false},
+      {.name = "neo_hookean",
+       .summary =
+           "the law of Abaqus and CalculiX (C10 = mu/2, D1 = 2/K), continued below a tenth of the rest volume "
+           "so that flat and inside-out cells have a finite energy and come back; needs the line search",
+       .make = make_law<Law::neo_hookean>,
+       .has_b_bar = true},
   };
   return table;
 }

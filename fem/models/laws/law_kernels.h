@@ -253,5 +253,6 @@ HyperelasticKernels law_kernels(const ElementKind& kind, bool mean, Instructions
 HyperelasticKernels corotational_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels stable_neo_hookean_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels st_venant_kirchhoff_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
+HyperelasticKernels neo_hookean_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 
 }  // namespace argil::fem
