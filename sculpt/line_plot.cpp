@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/xml_text.h"
 #include "sculpt/scene.h"
 #include "sculpt/shown_unit.h"
 #include "subdiv/error.h"
@@ -30,28 +31,6 @@ const char* const k_style = R"(<style>
 @media (prefers-color-scheme:dark){.plot{fill:#e3e5e8}.plot .ground{fill:#1e2126}
 .plot .frame{fill:#22262c;stroke:#4a505a}.plot .grid{stroke:#343a42}.plot .quiet{fill:#9aa0aa}}
 </style>)";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        // XML has no other control characters.
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  return result;
-}
 
 class Axis {
  public:
@@ -131,12 +110,12 @@ std::string grid(const LinePlot& plot, const Axis& x, const Axis& y) {
         "<path d=\"M{} {:.1f}H{}\" class=\"grid\"/><text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
         k_left - 5, at, k_right, k_left - 10, at + 4, text);
   });
-  svg += fmt::format("<text x=\"{}\" y=\"32\" class=\"title\">{}</text>\n", k_left, escaped(plot.title));
+  svg += fmt::format("<text x=\"{}\" y=\"32\" class=\"title\">{}</text>\n", k_left, io::xml_text(plot.title));
   svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" class=\"quiet\">{}</text>\n",
-                     0.5 * (k_left + k_right), k_bottom + 44, escaped(plot.x_title + x.unit()));
+                     0.5 * (k_left + k_right), k_bottom + 44, io::xml_text(plot.x_title + x.unit()));
   svg += fmt::format(
       "<text transform=\"translate(26 {}) rotate(-90)\" text-anchor=\"middle\" class=\"quiet\">{}</text>\n",
-      0.5 * (k_top + k_bottom), escaped(plot.y_title + y.unit()));
+      0.5 * (k_top + k_bottom), io::xml_text(plot.y_title + y.unit()));
   return svg;
 }
 
@@ -149,7 +128,7 @@ std::string plot_svg(const LinePlot& plot) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "class=\"plot\" "
       "role=\"img\" aria-label=\"{2}\">\n{3}\n<rect width=\"{0}\" height=\"{1}\" rx=\"6\" class=\"ground\"/>\n",
-      k_width, k_height, escaped(plot.title), k_style);
+      k_width, k_height, io::xml_text(plot.title), k_style);
   svg += grid(plot, x, y);
   std::vector<double> ends;
   for (const PlotCurve& curve : plot.curves) ends.push_back(y.place(curve.y.back()));
@@ -166,12 +145,12 @@ std::string plot_svg(const LinePlot& plot) {
     }
     svg += fmt::format(
         "<g fill=\"{0}\"><path d=\"{1}\" class=\"curve\" stroke=\"{0}\"{2}/>{3}<title>{4}</title></g>\n", colour,
-        path, i < k_colours.size() ? "" : " stroke-dasharray=\"6 4\"", marks, escaped(curve.name));
+        path, i < k_colours.size() ? "" : " stroke-dasharray=\"6 4\"", marks, io::xml_text(curve.name));
     svg += fmt::format(
         "<path d=\"M{:.1f} {:.1f}L{} {:.1f}\" class=\"leader\" stroke=\"{}\"/><text x=\"{}\" y=\"{:.1f}\" "
         "style=\"fill:{}\">{}</text>\n",
         x.place(curve.x.back()), ends[i], k_right + 14, heights[i], colour, k_right + 18, heights[i] + 4, colour,
-        escaped(curve.name));
+        io::xml_text(curve.name));
   }
   return svg + "</svg>\n";
 }

@@ -22,15 +22,12 @@ namespace argil::sculpt {
 
 /// What one simulation step cost and did.
 struct StepRecord {
-  int newton_iterations = 0, linear_iterations = 0;
-  bool converged = false;
-  double residual = 0;                                             // relative
-  fem::PreconditionerKind solver = fem::PreconditionerKind::none;  // none: explicit, or frozen
-  fem::GuardFinding finding = fem::GuardFinding::none;             // what the guard saw, and what helped
+  fem::StepReport report;                               // over its substeps; no preconditioner: explicit, or frozen
+  fem::GuardFinding finding = fem::GuardFinding::none;  // what the guard saw, and what helped
   fem::GuardRemedy remedy = fem::GuardRemedy::none;
   double share = 1;  // of the force out of balance that an eased step let through
   int substeps = 1;
-  double ms = 0, ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
+  double ms = 0;
 };
 
 struct MeasureRecord {

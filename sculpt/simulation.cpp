@@ -26,18 +26,6 @@ fem::StepOptions step_options(const State& state) {
   return options;
 }
 
-void add(StepRecord& record, const fem::StepReport& report) {
-  record.newton_iterations += report.newton_iterations;
-  record.linear_iterations += report.linear_iterations;
-  record.converged = report.converged;
-  record.residual = report.residual;
-  record.solver = report.preconditioner;
-  record.ms_forces += report.ms_forces;
-  record.ms_tangent += report.ms_tangent;
-  record.ms_solve += report.ms_solve;
-  record.ms_line_search += report.ms_line_search;
-}
-
 const char* cause_of(fem::GuardFinding finding) {
   switch (finding) {
     case fem::GuardFinding::not_finite:
@@ -68,12 +56,12 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
   for (int part = 0; part < next.substeps; ++part) {
     const double length = time_step / next.substeps;
     if (!next.guard_on) {
-      add(record, document.integrator().step(loads, *motion, length, options, clock));
+      fem::append(record.report, document.integrator().step(loads, *motion, length, options, clock));
       continue;
     }
     const fem::GuardedReport report =
         fem::guarded_step(document.integrator(), loads, *motion, next.guard, length, options, clock);
-    add(record, report.step);
+    fem::append(record.report, report.step);
     record.substeps = std::max(record.substeps, report.substeps);
     if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
     record.remedy = std::max(record.remedy, report.remedy);

@@ -78,10 +78,10 @@ Row row_of(const Balance& balance, double time, const StepRecord& record, std::s
   row.add("reaction", "N", balance.reaction.force);
   row.add("reaction_moment", "Nm", balance.reaction.moment);
   row.add("tool_force", "N", balance.tool.force);
-  row.add("newton_iterations", record.newton_iterations);
-  row.add("linear_iterations", record.linear_iterations);
-  row.add("residual", record.residual);
-  row.add("converged", record.converged ? 1 : 0);
+  row.add("newton_iterations", record.report.newton_iterations);
+  row.add("linear_iterations", record.report.linear_iterations);
+  row.add("residual", record.report.residual);
+  row.add("converged", record.report.converged ? 1 : 0);
   row.add("step_ms", record.ms);
   return row;
 }

@@ -61,16 +61,12 @@ std::string summary_json(const Session& session, const std::string& name, int th
     json["not_simulated"] = error.what();
   }
   std::vector<double> ms;
-  StepRecord sum;
+  double all_ms = 0;
+  fem::StepReport sum;
   for (const StepRecord& step : session.steps()) {
     ms.push_back(step.ms);
-    sum.ms += step.ms;
-    sum.ms_forces += step.ms_forces;
-    sum.ms_tangent += step.ms_tangent;
-    sum.ms_solve += step.ms_solve;
-    sum.ms_line_search += step.ms_line_search;
-    sum.linear_iterations += step.linear_iterations;
-    sum.newton_iterations += step.newton_iterations;
+    all_ms += step.ms;
+    fem::append(sum, step.report);
   }
   ordered_json guard;
   guard["on"] = document.state().guard_on;
@@ -88,19 +84,19 @@ std::string summary_json(const Session& session, const std::string& name, int th
   json["ms_per_step"] = {
       {"median", quantile(ms, 0.5)},
       {"p99", quantile(ms, 0.99)},
-      {"mean", sum.ms / n},
+      {"mean", all_ms / n},
       {"forces", sum.ms_forces / n},
       {"tangent", sum.ms_tangent / n},
       {"solve", sum.ms_solve / n},
       {"line_search", sum.ms_line_search / n},
-      {"other", (sum.ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
+      {"other", (all_ms - sum.ms_forces - sum.ms_tangent - sum.ms_solve - sum.ms_line_search) / n}};
   json["solver_iterations"] = sum.linear_iterations;
   json["newton_iterations"] = sum.newton_iterations;
   json["guard"] = guard;
   json["linear_solver"]["rule"] = fem::solver_rule();
   for (const fem::PreconditionerKind kind : fem::k_preconditioner_kinds)
     json["linear_solver"]["steps"][std::string(fem::word(kind))] =
-        count([&](const StepRecord& step) { return step.solver == kind; });
+        count([&](const StepRecord& step) { return step.report.preconditioner == kind; });
   json["threads"] = threads;
   ordered_json measures = ordered_json::array();
   for (const MeasureRecord& record : session.measures())

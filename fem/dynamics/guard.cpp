@@ -24,17 +24,6 @@ constexpr double k_shares_held[] = {1, 1.0 / 16};
 constexpr double k_influence_held[] = {0.75, 0.25, 0};
 constexpr int k_eased_parts = 8;
 
-void add(StepReport& sum, const StepReport& report) {
-  const StepReport before = sum;
-  sum = report;
-  sum.newton_iterations += before.newton_iterations;
-  sum.linear_iterations += before.linear_iterations;
-  sum.ms_forces += before.ms_forces;
-  sum.ms_tangent += before.ms_tangent;
-  sum.ms_solve += before.ms_solve;
-  sum.ms_line_search += before.ms_line_search;
-}
-
 /// The body where it is, at rest and without history.
 BodyState at_rest(const BodyState& state) {
   BodyState result;
@@ -188,8 +177,8 @@ class Ladder {
     for (; parts < attempt.parts; ++parts) {
       BodyState next = trial;
       try {
-        add(sum, integrator_.step(attempt.share < 1 ? held_back : loads_, next, time_step_ / attempt.parts,
-                                  attempt.options, clock_));
+        append(sum, integrator_.step(attempt.share < 1 ? held_back : loads_, next, time_step_ / attempt.parts,
+                                     attempt.options, clock_));
       } catch (const Error& error) {
         if (error.code() != ErrorCode::not_converged) throw;
         return GuardFinding::not_finite;

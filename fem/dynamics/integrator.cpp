@@ -10,6 +10,17 @@
 
 namespace argil::fem {
 
+void append(StepReport& sum, const StepReport& next) {
+  const StepReport before = sum;
+  sum = next;
+  sum.newton_iterations += before.newton_iterations;
+  sum.linear_iterations += before.linear_iterations;
+  sum.ms_forces += before.ms_forces;
+  sum.ms_tangent += before.ms_tangent;
+  sum.ms_solve += before.ms_solve;
+  sum.ms_line_search += before.ms_line_search;
+}
+
 Integrator::Integrator(System system) : impl_(std::make_unique<Impl>(std::move(system))) {
   const System& of = impl_->system;
   assert(of.rows && of.rows_transposed && of.model && of.mass && of.rest_nodes);

@@ -33,6 +33,8 @@ struct StepReport {
   PreconditionerKind preconditioner = PreconditionerKind::jacobi;
   double ms_forces = 0, ms_tangent = 0, ms_solve = 0, ms_line_search = 0;
 };
+/// Several steps as one: counts and times add up, what else there is to say is that of the last.
+void append(StepReport& sum, const StepReport& next);
 using Clock = double (*)();  // seconds; null: nothing is measured
 
 /// Keeps what lasts from step to step (the rest operator, its factor). Results depend on state and inputs only,

@@ -35,7 +35,7 @@ std::span<const MethodKind> method_table() {
       {Method::published, "published",
        "central difference as papers/004 takes it: each step in parts of 0.4 of the largest stable one, all motion "
        "damped by a tenth of the highest frequency; runs at any step, slow where the body is stiff, and sluggish",
-       0, false},
+       0, false, true},
   };
   return table;
 }

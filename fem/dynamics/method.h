@@ -21,10 +21,11 @@ enum class Method {
 
 struct MethodKind {
   Method method;
-  std::string_view name;     // as in a session
-  std::string_view summary;  // what it is and where it fails, without a full stop
-  int order = 1;             // of the error at the end of a fixed time; 0: some of it stays at any step
-  bool is_implicit = true;   // solves with the stiffness
+  std::string_view name;             // as in a session
+  std::string_view summary;          // what it is and where it fails, without a full stop
+  int order = 1;                     // of the error at the end of a fixed time; 0: some of it stays at any step
+  bool is_implicit = true;           // solves with the stiffness
+  bool of_published_method = false;  // with the force model of that mark it makes up papers/004's method
 };
 
 /// Those that an Integrator has; the default first.

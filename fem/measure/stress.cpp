@@ -1,5 +1,6 @@
 #include "fem/measure/stress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -32,11 +33,24 @@ Eigen::Vector3d st_venant_kirchhoff(const Eigen::Vector3d& s, double mu, double 
           s[2] * (2 * mu * green[2] + pressure)};
 }
 
+/// Ψ of laws/neo_hookean_law.h by the principal stretches, continued below J = 0.1 as there.
+Eigen::Vector3d neo_hookean(const Eigen::Vector3d& s, double mu, double lambda) {
+  constexpr double k_least_volume = 0.1;
+  const double j = s[0] * s[1] * s[2], at = std::max(j, k_least_volume), below = j - at;
+  const double whole = 1 / std::cbrt(at * at), slope = -2.0 / 3 * whole / at, factor = whole + below * slope;
+  const double barrier_slope = 6 * below / (k_least_volume * k_least_volume);
+  const double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+  const double volume = 0.5 * mu * (slope * square + barrier_slope) + (lambda + 2.0 / 3 * mu) * (j - 1);
+  return {mu * factor * s[0] + volume * s[1] * s[2], mu * factor * s[1] + volume * s[2] * s[0],
+          mu * factor * s[2] + volume * s[0] * s[1]};
+}
+
 }  // namespace
 
 StressLaw stress_law(std::string_view model) {
   if (model == "stable_neo_hookean") return stable_neo_hookean;
   if (model == "st_venant_kirchhoff") return st_venant_kirchhoff;
+  if (model == "neo_hookean") return neo_hookean;
   return corotational;
 }
 

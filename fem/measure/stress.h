@@ -14,9 +14,9 @@ namespace argil::fem {
 /// T of stretches σ₀ ≥ σ₁ ≥ |σ₂| (σ₂ < 0 inside out); μ and λ are those of small strain [Pa].
 using StressLaw = Eigen::Vector3d (*)(const Eigen::Vector3d& stretches, double mu, double lambda);
 
-/// The law of a force model by its name: corotational, stable_neo_hookean, st_venant_kirchhoff. Every other model
-/// is small-strain elasticity in some rotating frame, lattices included, and gets the corotational law: for the
-/// linear model that is its own stress as long as it is right, under small rotation.
+/// The law of a force model by its name: corotational, stable_neo_hookean, neo_hookean, st_venant_kirchhoff. Every
+/// other model is small-strain elasticity in some rotating frame, lattices included, and gets the corotational law:
+/// for the linear model that is its own stress as long as it is right, under small rotation.
 [[nodiscard]] StressLaw stress_law(std::string_view model);
 
 /// At the points of a block, 3 x points, in the order of the stretches; the block's prestress (a second

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "fem/elements/element_kind.h"
+#include "fem/models/kernel_variants.h"
 #include "fem/models/lanes.h"
 
 namespace argil::fem {
@@ -39,8 +40,6 @@ struct CorotationalKernels {
   PacketKernel tangent;  // x → tangent
   PacketKernel product;  // tangent, x = direction → slots
 };
-
-enum class Instructions { best, baseline };
 
 [[nodiscard]] CorotationalKernels corotational_kernels(const ElementKind& kind,
                                                        Instructions instructions = Instructions::best);

@@ -7,6 +7,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "fem/models/kernel_variants.h"
 #include "fem/models/lanes.h"
 #include "fem/models/linear.h"
 #include "fem/parallel.h"
@@ -259,16 +260,12 @@ ARGIL_LANES_INLINE void multiply_rows(const double* matrix, std::size_t size, co
   }
 }
 
-__attribute__((flatten)) void multiply_baseline(const double* m, std::size_t size, const double* v,
-                                                double* result) {
-  multiply_rows(m, size, v, result);
-}
-#if defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) void multiply_avx2(const double* m, std::size_t size, const double* v,
-                                                            double* result) {
-  multiply_rows(m, size, v, result);
-}
-#endif
+struct Multiply {
+  template <class>
+  static ARGIL_LANES_INLINE void run(const double* matrix, std::size_t size, const double* v, double* result) {
+    multiply_rows(matrix, size, v, result);
+  }
+};
 
 template <std::size_t Rows>
 ARGIL_LANES_INLINE void multiply_some_rows(const double* matrix, std::size_t size, const FourDoubles* v,
@@ -291,34 +288,24 @@ ARGIL_LANES_INLINE void multiply_four(const double* matrix, std::size_t size, co
   for (; row + 6 <= size; row += 6) multiply_some_rows<6>(matrix + row, size, v, result + row);
   for (; row < size; ++row) multiply_some_rows<1>(matrix + row, size, v, result + row);
 }
-__attribute__((flatten)) void multiply_four_baseline(const double* m, std::size_t size, const FourDoubles* v,
-                                                     FourDoubles* result) {
-  multiply_four(m, size, v, result);
-}
-#if defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) void multiply_four_avx2(const double* m, std::size_t size,
-                                                                 const FourDoubles* v, FourDoubles* result) {
-  multiply_four(m, size, v, result);
-}
-#endif
+struct MultiplyFour {
+  template <class>
+  static ARGIL_LANES_INLINE void run(const double* matrix, std::size_t size, const FourDoubles* v,
+                                     FourDoubles* result) {
+    multiply_four(matrix, size, v, result);
+  }
+};
 
 }  // namespace
 
 void multiply_stiffness(const double* matrix, std::size_t size, const double* v, double* result) {
-#if defined(__x86_64__)
-  static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_avx2 : multiply_baseline;
-#else
-  static const auto chosen = multiply_baseline;
-#endif
+  static const auto chosen = kernel_variant<Multiply, const double*, std::size_t, const double*, double*>();
   chosen(matrix, size, v, result);
 }
 
 void multiply_stiffness_of_four(const double* matrix, std::size_t size, const FourDoubles* v, FourDoubles* result) {
-#if defined(__x86_64__)
-  static const auto chosen = __builtin_cpu_supports("avx2") ? multiply_four_avx2 : multiply_four_baseline;
-#else
-  static const auto chosen = multiply_four_baseline;
-#endif
+  static const auto chosen =
+      kernel_variant<MultiplyFour, const double*, std::size_t, const FourDoubles*, FourDoubles*>();
   chosen(matrix, size, v, result);
 }
 

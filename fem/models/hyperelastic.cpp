@@ -82,6 +82,8 @@ class Hyperelastic final : public ForceModel {
         return "stable_neo_hookean";
       case Law::st_venant_kirchhoff:
         return "st_venant_kirchhoff";
+      case Law::neo_hookean:
+        return "neo_hookean";
     }
     return "";
   }

@@ -61,7 +61,7 @@ struct StiffnessArguments {
   FourDoubles* stiffness;
 };
 
-ARGIL_LANES_INLINE void run(const StiffnessArguments& s) {
+ARGIL_LANES_INLINE void fill_stiffness(const StiffnessArguments& s) {
   const PacketArguments& a = *s.packets;
   const auto nodes = static_cast<std::size_t>(a.kind->node_count), size = 3 * nodes;
   const auto points = static_cast<std::size_t>(a.kind->point_count);
@@ -83,25 +83,19 @@ ARGIL_LANES_INLINE void run(const StiffnessArguments& s) {
     for (std::size_t j = 0; j < i; ++j) store(s.stiffness + i * size + j, load(s.stiffness + j * size + i));
 }
 
-__attribute__((flatten)) void run_stiffness_baseline(const StiffnessArguments& s) {
-  run(s);
-}
-#if defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) void run_stiffness_avx2(const StiffnessArguments& s) {
-  run(s);
-}
-#endif
+struct FillStiffness {
+  template <class>
+  static ARGIL_LANES_INLINE void run(const StiffnessArguments& s) {
+    fill_stiffness(s);
+  }
+};
 
 }  // namespace
 
 void spectral_stiffness(const PacketArguments& arguments, std::size_t entries, std::size_t packet,
                         FourDoubles* stiffness) {
   assert(arguments.kind->node_count <= k_most_nodes);
-#if defined(__x86_64__)
-  static const auto chosen = __builtin_cpu_supports("avx2") ? run_stiffness_avx2 : run_stiffness_baseline;
-#else
-  static const auto chosen = run_stiffness_baseline;
-#endif
+  static const auto chosen = kernel_variant<FillStiffness, const StiffnessArguments&>();
   chosen({&arguments, entries, packet, stiffness});
 }
 
@@ -122,6 +116,8 @@ HyperelasticKernels hyperelastic_kernels(Law law, const ElementKind& kind, bool 
       return stable_neo_hookean_law_kernels(kind, mean, isa);
     case Law::st_venant_kirchhoff:
       return st_venant_kirchhoff_law_kernels(kind, mean, isa);
+    case Law::neo_hookean:
+      return neo_hookean_law_kernels(kind, mean, isa);
   }
   return {};
 }

@@ -25,7 +25,7 @@ struct HyperelasticKernels {
   std::size_t entries = k_spectral_entries;
 };
 
-enum class Law { corotational, stable_neo_hookean, st_venant_kirchhoff };
+enum class Law { corotational, stable_neo_hookean, st_venant_kirchhoff, neo_hookean };
 
 /// `mean_dilatation` for trilinear hexahedra only.
 [[nodiscard]] HyperelasticKernels hyperelastic_kernels(Law law, const ElementKind& kind, bool mean_dilatation,

@@ -154,7 +154,7 @@ struct StiffnessArguments {
   FourDoubles* stiffness;
 };
 
-ARGIL_LANES_INLINE void run_stiffness(const StiffnessArguments& s) {
+ARGIL_LANES_INLINE void fill_stiffness(const StiffnessArguments& s) {
   const PacketArguments& a = *s.packets;
   const auto nodes = static_cast<std::size_t>(a.kind->node_count), size = 3 * nodes;
   const auto points = static_cast<std::size_t>(a.kind->point_count);
@@ -181,14 +181,12 @@ ARGIL_LANES_INLINE void run_stiffness(const StiffnessArguments& s) {
     for (std::size_t j = 0; j < i; ++j) store(s.stiffness + i * size + j, load(s.stiffness + j * size + i));
 }
 
-__attribute__((flatten)) void run_stiffness_baseline(const StiffnessArguments& s) {
-  run_stiffness(s);
-}
-#if defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) void run_stiffness_avx2(const StiffnessArguments& s) {
-  run_stiffness(s);
-}
-#endif
+struct FillStiffness {
+  template <class>
+  static ARGIL_LANES_INLINE void run(const StiffnessArguments& s) {
+    fill_stiffness(s);
+  }
+};
 
 }  // namespace
 
@@ -203,11 +201,7 @@ LinearKernels linear_kernels(const ElementKind& kind, bool mean, Instructions in
 void linear_stiffness(const PacketArguments& arguments, bool mean_dilatation, std::size_t packet,
                       FourDoubles* stiffness) {
   assert(static_cast<std::size_t>(arguments.kind->node_count) <= k_most_nodes);
-#if defined(__x86_64__)
-  static const auto chosen = __builtin_cpu_supports("avx2") ? run_stiffness_avx2 : run_stiffness_baseline;
-#else
-  static const auto chosen = run_stiffness_baseline;
-#endif
+  static const auto chosen = kernel_variant<FillStiffness, const StiffnessArguments&>();
   const bool from_nodes = arguments.kind == &trilinear_hexahedron() || arguments.kind == &pyramid();
   chosen({&arguments, mean_dilatation, from_nodes, packet, stiffness});
 }

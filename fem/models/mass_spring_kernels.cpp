@@ -225,6 +225,7 @@ ARGIL_LANES_INLINE LaneSprings stretched(const SpringArguments& a, std::size_t p
 }
 
 struct Forces {
+  template <class>
   static ARGIL_LANES_INLINE void run(const SpringArguments& a, std::size_t begin, std::size_t end) {
     Packet c;
     LaneVector forces[8];
@@ -245,6 +246,7 @@ struct Forces {
 };
 
 struct Energy {
+  template <class>
   static ARGIL_LANES_INLINE void run(const SpringArguments& a, std::size_t begin, std::size_t end) {
     Packet c;
     for (std::size_t packet = begin; packet < end; ++packet) {
@@ -260,6 +262,7 @@ struct Energy {
 };
 
 struct MakeTangent {
+  template <class>
   static ARGIL_LANES_INLINE void run(const SpringArguments& a, std::size_t begin, std::size_t end) {
     Packet c;
     for (std::size_t packet = begin; packet < end; ++packet) {
@@ -282,6 +285,7 @@ struct MakeTangent {
 };
 
 struct Product {
+  template <class>
   static ARGIL_LANES_INLINE void run(const SpringArguments& a, std::size_t begin, std::size_t end) {
     LaneVector x[8], forces[8], along[k_springs], difference[k_springs];
     Lanes elongation[k_springs], tension[k_springs];
@@ -313,15 +317,9 @@ struct Product {
 };
 
 template <class Loop>
-__attribute__((flatten)) void baseline(const SpringArguments& a, std::size_t begin, std::size_t end) {
-  Loop::run(a, begin, end);
+auto variant() {
+  return kernel_variant<Loop, const SpringArguments&, std::size_t, std::size_t>();
 }
-#if defined(__x86_64__)
-template <class Loop>
-__attribute__((target("avx2"), flatten)) void avx2(const SpringArguments& a, std::size_t begin, std::size_t end) {
-  Loop::run(a, begin, end);
-}
-#endif
 
 }  // namespace
 
@@ -330,10 +328,7 @@ const SpringEnds& spring_ends(std::size_t spring) {
 }
 
 SpringKernels spring_kernels() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return {avx2<Forces>, avx2<Energy>, avx2<MakeTangent>, avx2<Product>};
-#endif
-  return {baseline<Forces>, baseline<Energy>, baseline<MakeTangent>, baseline<Product>};
+  return {variant<Forces>(), variant<Energy>(), variant<MakeTangent>(), variant<Product>()};
 }
 
 CubeSprings cube_springs(const MassSpringOptions& options, double mu, double lambda, double size) {

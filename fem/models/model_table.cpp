@@ -94,12 +94,19 @@ std::span<const ModelKind> model_table() {
            "papers/004's forces from edge lengths and face angles, made precise; for explicit steps with damping",
        .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                   Formulation) { return make_local_frame(blocks, rest_nodes); },
-       .takes_prestress = false},
+       .takes_prestress = false,
+       .of_published_method = true},
       {.name = "published_literal",
        .summary = "the same as its equations are printed, without force inside a body under uniform strain",
        .make = [](std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
                   Formulation) { return make_local_frame_literal(blocks, rest_nodes); },
        .takes_prestress = false},
+      {.name = "neo_hookean",
+       .summary =
+           "the law of Abaqus and CalculiX (C10 = mu/2, D1 = 2/K), continued below a tenth of the rest volume "
+           "so that flat and inside-out cells have a finite energy and come back; needs the line search",
+       .make = make_law<Law::neo_hookean>,
+       .has_b_bar = true},
   };
   return table;
 }

@@ -1,8 +1,7 @@
 #pragma once
-// Which loop runs over packets of four elements: chosen once for element kind and processor. An operation is a
-// struct with
-//   template <class Shape, class Isa> static void run(const PacketArguments&, begin_packet, end_packet),
-// compiled for the baseline and for AVX2, which give the same bits.
+// Which loop runs over packets of four elements: chosen once for element kind and processor (kernel_variants.h). An
+// operation is a struct with
+//   template <class Shape, class Isa> static void run(const PacketArguments&, begin_packet, end_packet).
 
 #include "fem/models/packet_points.h"
 #include "fem/models/shapes/dense_shape.h"
@@ -14,26 +13,18 @@
 
 namespace argil::fem {
 
+/// An operation of kernel_variants.h.
 template <class Operation, class Shape>
-__attribute__((flatten)) void run_packets_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
-  Operation::template run<Shape, Baseline>(a, begin, end);
-}
-#if defined(__x86_64__)
-template <class Operation, class Shape>
-__attribute__((target("avx2"), flatten)) void run_packets_avx2(const PacketArguments& a, std::size_t begin,
-                                                               std::size_t end) {
-  Operation::template run<Shape, Avx2>(a, begin, end);
-}
-#endif
+struct OnShape {
+  template <class Isa>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Operation::template run<Shape, Isa>(a, begin, end);
+  }
+};
 
 template <class Operation, class Shape>
 PacketKernel packet_kernel(Instructions instructions) {
-#if defined(__x86_64__)
-  if (instructions == Instructions::best && __builtin_cpu_supports("avx2"))
-    return run_packets_avx2<Operation, Shape>;
-#endif
-  (void)instructions;
-  return run_packets_baseline<Operation, Shape>;
+  return kernel_variant<OnShape<Operation, Shape>, const PacketArguments&, std::size_t, std::size_t>(instructions);
 }
 
 /// With the shape of this kind.

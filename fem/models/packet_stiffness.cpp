@@ -49,7 +49,8 @@ ARGIL_LANES_INLINE void add_point(const double* gradients, std::size_t nodes, co
   }
 }
 
-ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t packet, FourDoubles* stiffness, LaneVector* h) {
+ARGIL_LANES_INLINE void fill_stiffness(const PacketArguments& a, std::size_t packet, FourDoubles* stiffness,
+                                       LaneVector* h) {
   const auto nodes = static_cast<std::size_t>(a.kind->node_count), size = 3 * nodes;
   const auto points = static_cast<std::size_t>(a.kind->point_count);
   for (std::size_t i = 0; i < size * size; ++i) store(stiffness + i, broadcast(0));
@@ -62,26 +63,20 @@ ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t packet, FourDo
     for (std::size_t j = 0; j < i; ++j) store(stiffness + i * size + j, load(stiffness + j * size + i));
 }
 
-__attribute__((flatten)) void run_baseline(const PacketArguments& a, std::size_t packet, FourDoubles* stiffness,
-                                           LaneVector* h) {
-  run(a, packet, stiffness, h);
-}
-#if defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) void run_avx2(const PacketArguments& a, std::size_t packet,
-                                                       FourDoubles* stiffness, LaneVector* h) {
-  run(a, packet, stiffness, h);
-}
-#endif
+struct FillStiffness {
+  template <class>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t packet, FourDoubles* stiffness,
+                                     LaneVector* h) {
+    fill_stiffness(a, packet, stiffness, h);
+  }
+};
 
 }  // namespace
 
 void packet_stiffness(const PacketArguments& arguments, std::size_t packet, FourDoubles* stiffness) {
   LaneVector h[64];
-#if defined(__x86_64__)
-  static const auto chosen = __builtin_cpu_supports("avx2") ? run_avx2 : run_baseline;
-#else
-  static const auto chosen = run_baseline;
-#endif
+  static const auto chosen =
+      kernel_variant<FillStiffness, const PacketArguments&, std::size_t, FourDoubles*, LaneVector*>();
   chosen(arguments, packet, stiffness, h);
 }
 

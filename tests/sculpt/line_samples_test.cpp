@@ -14,14 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-void deform(TestSession& session, const Eigen::Matrix3d& map) {
-  State next = session.state();
-  auto motion = std::make_shared<fem::BodyState>(*next.motion);
-  motion->positions = map * *next.rest;
-  next.motion = motion;
-  session.document().assign(std::move(next));
-}
-
 const std::vector<std::string> k_bar{"new box 4 2 2 size 0.4 0.1 0.1",
                                      "set young_modulus 2e4",
                                      "set density 300",
@@ -36,7 +28,7 @@ TEST_P(LinearField, IsSampledExactlyOnAnyLineThroughAnyKindOfElement) {
   TestSession session(GetParam());
   Eigen::Matrix3d map;
   map << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, -0.15, 0.1, 1.1;
-  deform(session, map);
+  session.deform(map);
   // About the middle, which no refinement draws the surface over.
   const Eigen::Vector3d middle = session.document().rest().rowwise().mean();
   const std::vector<std::string> fields{"displacement_y", "distortion"};

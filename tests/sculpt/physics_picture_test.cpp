@@ -12,15 +12,6 @@
 namespace argil::sculpt {
 namespace {
 
-// A body whose control points are moved by a map: level 1 of a box follows it exactly.
-void deform(TestSession& session, const Eigen::Matrix3d& map) {
-  State next = session.state();
-  auto motion = std::make_shared<fem::BodyState>(*next.motion);
-  motion->positions = map * *next.rest;
-  next.motion = motion;
-  session.document().assign(std::move(next));
-}
-
 PictureRequest request_of(const std::string& field) {
   PictureRequest request;
   request.field = field;
@@ -32,7 +23,7 @@ const std::vector<std::string> k_box{"new box 3 3 3 size 1 1 1", "levels 1", "se
 
 TEST(ShownFields, OfAUniformStretchAreItsPrincipalStrainsStressesAndVolume) {
   TestSession session(k_box);
-  deform(session, Eigen::Vector3d(1.1, 0.95, 1.02).asDiagonal());
+  session.deform(Eigen::Vector3d(1.1, 0.95, 1.02).asDiagonal());
   const double mu = 1e5 / 2.5, lambda = 1e5 * 0.25 / (1.25 * 0.5), trace = 0.1 - 0.05 + 0.02;
   const std::pair<const char*, double> wanted[] = {{"strain_1", 0.1},
                                                    {"strain_2", 0.02},
@@ -57,7 +48,7 @@ TEST(ShownFields, OfAUniformStretchAreItsPrincipalStrainsStressesAndVolume) {
 
 TEST(ShownFields, WithASignGetALegendAsFarBelowZeroAsAbove) {
   TestSession session(k_box);
-  deform(session, Eigen::Vector3d(1.1, 1, 1).asDiagonal());
+  session.deform(Eigen::Vector3d(1.1, 1, 1).asDiagonal());
   const Scene scene = make_scene(session.document(), request_of("displacement_x"));
   EXPECT_EQ(scene.legend->low, -scene.legend->high);
   EXPECT_EQ(scene.legend->map, ColourMap::balanced);
@@ -72,7 +63,7 @@ TEST(Frames, TangentsFollowTheMapAndRotatedOnesOnlyTurn) {
   ASSERT_EQ(rest.lines[0].lines.size(), 216U);
   Eigen::Matrix3d map;
   map << 1.3, 0.4, 0, 0, 0.8, 0.2, 0.1, 0, 1;
-  deform(session, map);
+  session.deform(map);
   Scene tangent, rotated;
   add_frames(tangent, session.document(), FrameKind::tangent);
   add_frames(rotated, session.document(), FrameKind::rotated);
@@ -100,7 +91,7 @@ TEST(ShearedCorner, TurnsItsSidesBackToTheRestAngleByHalfEach) {
   const Eigen::Matrix3Xd rest = session.document().surface_nodes(session.document().rest());
   Eigen::Index middle = 0;
   (rest.colwise() - Eigen::Vector3d::Constant(0.5)).colwise().norm().minCoeff(&middle);
-  deform(session, map);
+  session.deform(map);
   const ShearedCorner corner = sheared_corner(session.document(), static_cast<std::uint32_t>(middle));
   EXPECT_NEAR(corner.rest_angle, M_PI / 2, 1e-12);
   EXPECT_NEAR(std::abs(corner.rest_angle - corner.angle), std::atan(0.5), 1e-12);

@@ -196,10 +196,11 @@ void run_session(std::uint32_t seed, Tally& tally) {
   std::set<fem::GuardRemedy> remedies;
   for (const StepRecord& step : test->steps()) {
     ++tally.steps;
-    tally.most_iterations = std::max(tally.most_iterations, static_cast<long>(step.linear_iterations));
+    tally.most_iterations = std::max(tally.most_iterations, static_cast<long>(step.report.linear_iterations));
     if (step.remedy == fem::GuardRemedy::none) continue;
     remedies.insert(step.remedy);
-    tally.coasting += step.remedy == fem::GuardRemedy::implicit_euler && !step.converged && step.residual > 0.5;
+    tally.coasting +=
+        step.remedy == fem::GuardRemedy::implicit_euler && !step.report.converged && step.report.residual > 0.5;
     ++tally.found[std::string(fem::word(step.finding))];
     ++tally.helped[std::string(fem::word(step.remedy))];
   }

@@ -66,6 +66,14 @@ class TestSession {
     session_.run_line("measure " + what);
     return session_.measures().back().value;
   }
+  /// Moves the control points to where a map takes their rest positions: level 1 of a box follows it exactly.
+  void deform(const Eigen::Matrix3d& map) {
+    State next = state();
+    auto motion = std::make_shared<fem::BodyState>(*next.motion);
+    motion->positions = map * *next.rest;
+    next.motion = motion;
+    document().assign(std::move(next));
+  }
   std::uint64_t hash() const { return session_.document().state_hash(); }
   Document& document() { return session_.document(); }
   const State& state() const { return session_.document().state(); }

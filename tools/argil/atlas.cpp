@@ -61,7 +61,7 @@ std::vector<AtlasMethod> chosen_methods(const AtlasArguments& arguments) {
     for (const Integration& integration : all) {
       if (!chosen(arguments.models, model) || !chosen(arguments.integrators, integration.name)) continue;
       const bool on_cross = model == models.front() || integration.name == names.front() ||
-                            (model == "published" && integration.name == "published");
+                            (fem::model_by_name(model).of_published_method && integration.of_published_method);
       if (arguments.quick && !on_cross && arguments.models.empty() && arguments.integrators.empty()) continue;
       methods.push_back({{.name = model}, integration});
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/xml_text.h"
+
 namespace argil::atlas {
 
 namespace {
@@ -115,7 +117,7 @@ class Picture {
         "{:.0f}\" "
         "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"12\" fill=\"#222\">\n",
         width, height, width, height);
-    add("<title>{}</title>\n", xml_text(sweep_.title));
+    add("<title>{}</title>\n", io::xml_text(sweep_.title));
     add("{}", k_patterns);
     add("<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n");
     head();
@@ -144,18 +146,19 @@ class Picture {
   }
 
   void head() {
-    add("<text x=\"14\" y=\"28\" font-size=\"20\" font-weight=\"600\">{}</text>\n", xml_text(sweep_.title));
-    add("<text x=\"14\" y=\"49\">{}</text>\n", xml_text("Scene: " + sweep_.scene_words + "."));
+    add("<text x=\"14\" y=\"28\" font-size=\"20\" font-weight=\"600\">{}</text>\n", io::xml_text(sweep_.title));
+    add("<text x=\"14\" y=\"49\">{}</text>\n", io::xml_text("Scene: " + sweep_.scene_words + "."));
     const bool inverted = sweep_.scene.motion == Motion::invert;
     const std::string near =
         inverted ? std::string("some point still inside out at the end")
                  : fmt::format("more than {:g} % of the largest displacement away from fine implicit steps",
                                100 * options_.criteria.error);
-    add("<text x=\"14\" y=\"67\" fill=\"#555\">{}</text>\n", xml_text(fmt::format("Inaccurate: {}.", near)));
+    add("<text x=\"14\" y=\"67\" fill=\"#555\">{}</text>\n", io::xml_text(fmt::format("Inaccurate: {}.", near)));
     add("<text x=\"14\" y=\"83\" fill=\"#555\">{}</text>\n",
-        xml_text(fmt::format("Diverged: not finite, or more than {:g} times the energy that was put in, within at "
-                             "least {} steps.",
-                             options_.criteria.energy_factor, options_.criteria.least_steps)));
+        io::xml_text(
+            fmt::format("Diverged: not finite, or more than {:g} times the energy that was put in, within at "
+                        "least {} steps.",
+                        options_.criteria.energy_factor, options_.criteria.least_steps)));
     double x = 14;
     for (const Outcome outcome : {Outcome::stable, Outcome::inaccurate, Outcome::diverged, Outcome::refused}) {
       const Look what = look(outcome);
@@ -183,7 +186,7 @@ class Picture {
     top_ = y + k_top;
     add("<g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"600\">{}</text>\n"
         "<text x=\"{:.1f}\" y=\"{:.1f}\">{}{}</text>\n",
-        left_, top_ - 22, xml_text(panel.integrator), left_, top_ - 7, xml_text(panel.model),
+        left_, top_ - 22, io::xml_text(panel.integrator), left_, top_ - 7, io::xml_text(panel.model),
         panel.is_implicit ? "" : " (explicit)");
     add("<g shape-rendering=\"crispEdges\">\n");
     for (std::size_t i = 0; i < panel.lines.size(); ++i) {
@@ -230,7 +233,7 @@ class Picture {
     };
     add("<polygon points=\"{} {} {} {}\" fill=\"{}\"><title>{}</title></polygon>\n", corner(stretch.begin, swept),
         corner(stretch.end, swept), corner(there.end, other), corner(there.begin, other),
-        look(stretch.outcome).fill, xml_text(tooltip(panel, line, stretch)));
+        look(stretch.outcome).fill, io::xml_text(tooltip(panel, line, stretch)));
   }
 
   std::string tooltip(const Panel& panel, const MapLine& line, const Stretch& stretch) const {
@@ -277,10 +280,10 @@ class Picture {
           "font-size=\"10.5\">{}</text>\n",
           left_, y_of(tick.share), left_ - 7, y_of(tick.share) + 3.8, tick.text);
     add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"11\">{}</text>\n",
-        left_ + k_panel_width / 2, bottom + 32, xml_text(parameter(horizontal_.value).title));
+        left_ + k_panel_width / 2, bottom + 32, io::xml_text(parameter(horizontal_.value).title));
     add("<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\" "
         "font-size=\"11\">{}</text>\n",
-        left_ - 44, top_ + k_panel_height / 2, xml_text(parameter(vertical_.value).title));
+        left_ - 44, top_ + k_panel_height / 2, io::xml_text(parameter(vertical_.value).title));
   }
 
   const Sweep& sweep_;
@@ -292,23 +295,6 @@ class Picture {
 };
 
 }  // namespace
-
-std::string xml_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 double limit_share(const Sweep& sweep, const MapLine& line) {
   const auto excess = [](const ProbeRow& row) { return std::log(row.time_step / row.result.largest_stable_step); };

@@ -16,7 +16,4 @@ namespace argil::atlas {
 /// or where no limit is known.
 [[nodiscard]] double limit_share(const Sweep& sweep, const MapLine& line);
 
-/// Text as the content of an XML element or attribute.
-[[nodiscard]] std::string xml_text(std::string_view text);
-
 }  // namespace argil::atlas

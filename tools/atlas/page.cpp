@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/xml_text.h"
 #include "tools/atlas/map.h"
 
 namespace argil::atlas {
@@ -107,15 +108,16 @@ std::string page_html(const std::vector<SweepResult>& results, const AtlasOption
       100 * options.criteria.error, options.criteria.least_steps);
   html += "<ul>\n";
   for (const SweepResult& result : results)
-    html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", result.sweep.name, xml_text(result.sweep.title));
+    html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", result.sweep.name, io::xml_text(result.sweep.title));
   html += "</ul>\n";
   for (const SweepResult& result : results) {
     html += fmt::format("<h2 id=\"{}\">{}</h2>\n<figure>\n{}</figure>\n", result.sweep.name,
-                        xml_text(result.sweep.title), map_svg(result.sweep, options, result.panels));
+                        io::xml_text(result.sweep.title), map_svg(result.sweep, options, result.panels));
     html += "<table>\n<tr><th>Model</th><th>Integrator</th><th>What the map shows</th></tr>\n";
     for (const Panel& panel : result.panels)
-      html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", xml_text(panel.model),
-                          xml_text(panel.integrator), xml_text(statement(result.sweep, options.grid, panel)));
+      html +=
+          fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", io::xml_text(panel.model),
+                      io::xml_text(panel.integrator), io::xml_text(statement(result.sweep, options.grid, panel)));
     html += "</table>\n";
   }
   return html + "</body>\n</html>\n";

@@ -21,7 +21,8 @@ class IntegratorStepper final : public Stepper {
 
 Integration integration(const fem::MethodKind& kind, const fem::StepOptions& options) {
   return {std::string(kind.name), kind.is_implicit,
-          [options](const fem::System& system) { return std::make_unique<IntegratorStepper>(system, options); }};
+          [options](const fem::System& system) { return std::make_unique<IntegratorStepper>(system, options); },
+          kind.of_published_method};
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct Integration {
   std::string name;
   bool is_implicit = true;
   std::function<std::unique_ptr<Stepper>(const fem::System&)> make;
+  bool of_published_method = false;  // as in fem::MethodKind
 };
 
 /// Every method of the table with the options that a session has by default.

@@ -48,6 +48,7 @@ std::vector<SpaceRow> spaces() {
       row_of("nodes", "plain elements, the nodes their own unknowns", 0, fem::Space::standard),
       row_of("published", "cubic and linear elements mixed as published, not continuous", 1,
              fem::Space::published)};
+  rows.back().of_published_method = true;
   rows.push_back({"tetrahedra", "ten-node tetrahedra, the nodes their own unknowns: a reference from outside", 0,
                   [](const subdiv::Refinement& refinement, const Eigen::Matrix3Xd& control_points,
                      const fem::NodalFields& fields) {
@@ -78,7 +79,8 @@ std::vector<ModelRow> models() {
       rows.push_back({choice, std::string(kind.summary),
                       [choice](std::span<const fem::ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes) {
                         return fem::make_model(choice, blocks, rest_nodes);
-                      }});
+                      },
+                      kind.of_published_method});
     }
   return rows;
 }

@@ -35,7 +35,8 @@ struct SpaceRow {
   std::function<Discretized(const subdiv::Refinement&, const Eigen::Matrix3Xd& control_points,
                             const fem::NodalFields&)>
       discretize;
-  bool has_hexahedra = true;  // else their formulations are all one
+  bool has_hexahedra = true;         // else their formulations are all one
+  bool of_published_method = false;  // as in fem::ModelKind
 };
 /// default (one refinement), cubic (none), nodes (the control grid as plain elements), the mixed space as
 /// published, and quadratic tetrahedra.
@@ -45,6 +46,7 @@ struct ModelRow {
   fem::ModelChoice choice;
   std::string summary;
   std::function<std::unique_ptr<fem::ForceModel>(std::span<const fem::ElementBlock>, const Eigen::Matrix3Xd&)> make;
+  bool of_published_method = false;  // as in fem::ModelKind
 
   /// "corotational", or "corotational b_bar".
   [[nodiscard]] std::string name() const;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/file_bytes.h"
+#include "io/xml_text.h"
 #include "tools/chart/findings.h"
 
 namespace argil::chart {
@@ -44,7 +45,7 @@ std::string front_table(const Panel& panel) {
     html += fmt::format(
         "<tr><td>{}</td><td>{} {}</td>{}<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
         "class=\"n\">{}</td></tr>\n",
-        escaped(row.method()), escaped(row.space), row.resolution,
+        io::xml_text(row.method()), io::xml_text(row.space), row.resolution,
         panel.in_motion ? fmt::format("<td class=\"n\">{}</td>",
                                       std::isfinite(row.time_step) ? time_step_text(row.time_step) : "")
                         : "",
@@ -77,7 +78,7 @@ std::string about(const std::vector<Panel>& panels) {
       "within this page only. A solve begins with the discretized body and includes factorisations. Memory is the "
       "growth "
       "of the peak of resident memory during a run. Every row is in <a href=\"chart.csv\">chart.csv</a>.</p>\n",
-      runs, panels.size(), on, escaped(by), good);
+      runs, panels.size(), on, io::xml_text(by), good);
 }
 
 }  // namespace
@@ -85,16 +86,17 @@ std::string about(const std::vector<Panel>& panels) {
 std::string page(const std::vector<Panel>& panels, const Colours& colours) {
   std::string html = k_head;
   html += "<h1>Speed against accuracy</h1>\n" + about(panels) + "<nav>";
-  for (const Panel& panel : panels) html += fmt::format("<a href=\"#{}\">{}</a>", panel.name, escaped(panel.title));
+  for (const Panel& panel : panels)
+    html += fmt::format("<a href=\"#{}\">{}</a>", panel.name, io::xml_text(panel.title));
   html += "</nav>\n";
   for (const Panel& panel : panels) {
     const Findings found = findings(panel);
-    html += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>", panel.name, escaped(panel.title));
-    for (const std::string& sentence : found.choice) html += escaped(sentence) + " ";
+    html += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>", panel.name, io::xml_text(panel.title));
+    for (const std::string& sentence : found.choice) html += io::xml_text(sentence) + " ";
     html += "</p>\n<figure>" + picture(panel, colours) + "</figure>\n" + front_table(panel);
     if (found.failures.empty()) continue;
     html += fmt::format("<details><summary>What failed, and why ({})</summary><ul>\n", found.failures.size());
-    for (const std::string& failure : found.failures) html += "<li>" + escaped(failure) + "</li>\n";
+    for (const std::string& failure : found.failures) html += "<li>" + io::xml_text(failure) + "</li>\n";
     html += "</ul></details>\n";
   }
   return html + "</body></html>\n";

@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "io/xml_text.h"
 #include "tools/chart/label_layout.h"
 #include "tools/chart/log_axis.h"
+#include "tools/chart/marks.h"
 
 namespace argil::chart {
 
 namespace {
 
-// After Okabe and Ito, and Tol, with lightness that shows on light and dark alike.
-constexpr std::array k_colours{"#3b82c4", "#d55e00", "#009e73", "#b55fb0", "#c99a00", "#44aac8",
-                               "#d6556b", "#7a6fd0", "#7f9a2d", "#2aa198", "#a9744f", "#8a8f98"};
 constexpr double k_left = 92, k_top = 92, k_plot_width = 660, k_plot_height = 420, k_legend = 780;
 constexpr double k_width = 1040;
 constexpr double k_least_error = 1e-6, k_largest_error = 10;
@@ -44,57 +42,6 @@ struct Plot {
   LogAxis time, error;
   double bottom;
 };
-
-enum class Align { start, middle, end };
-
-std::string text(double x, double y, const std::string& what, const char* look = "", Align align = Align::start) {
-  const char* anchor = align == Align::middle ? " text-anchor=\"middle\""
-                       : align == Align::end  ? " text-anchor=\"end\""
-                                              : "";
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\"{}>{}</text>\n", x, y, look, anchor,
-                     escaped(what));
-}
-
-std::string line(double x0, double y0, double x1, double y1, const char* look) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x0, y0, x1,
-                     y1, look);
-}
-
-// A marker a space, in the order of the legend; unknown ones share the last.
-std::size_t marker_number(const std::string& space) {
-  constexpr std::array k_spaces{"default", "cubic", "nodes", "published"};
-  const auto found = std::find(k_spaces.begin(), k_spaces.end(), space);
-  return static_cast<std::size_t>(found - k_spaces.begin());
-}
-
-std::string marker(double x, double y, const std::string& space, double r) {
-  switch (marker_number(space)) {
-    case 0:
-      return fmt::format("M{:.1f} {:.1f}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", x - r, y, fmt::arg("r", r),
-                         fmt::arg("d", 2 * r));
-    case 1:
-      return fmt::format("M{:.1f} {:.1f}h{d}v{d}h-{d}z", x - 0.9 * r, y - 0.9 * r, fmt::arg("d", 1.8 * r));
-    case 2:
-      return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}H{:.1f}z", x, y - 1.2 * r, x + 1.15 * r, y + 0.8 * r,
-                         x - 1.15 * r);
-    case 3:
-      return fmt::format("M{:.1f} {:.1f}l{a} {a}l-{a} {a}l-{a} -{a}z", x, y - 1.25 * r, fmt::arg("a", 1.25 * r));
-    default:
-      return fmt::format("M{:.1f} {:.1f}h{d}L{:.1f} {:.1f}z", x - 1.15 * r, y - 0.8 * r, x, y + 1.2 * r,
-                         fmt::arg("d", 2.3 * r));
-  }
-}
-
-std::string dot(double x, double y, const char* colour = nullptr) {
-  const std::string fill = colour ? fmt::format("style=\"fill:{}\" ", colour) : std::string{};
-  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.7\" {}class=\"dot\"/>\n", x, y, fill);
-}
-
-const char* dashes(const std::string& formulation) {
-  if (formulation == "b_bar") return " stroke-dasharray=\"7 3\"";
-  if (formulation == "incompatible_modes") return " stroke-dasharray=\"2 3\"";
-  return "";
-}
 
 Plot plot_of(const Panel& panel) {
   double fast = 1e300, slow = 0, small = 1e300, large = 0;
@@ -196,7 +143,7 @@ class Painter {
                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h:.0f}\" width=\"{w}\" "
                "height=\"{h:.0f}\" class=\"argil\" role=\"img\" aria-label=\"{}\">\n{}\n<rect width=\"{w}\" "
                "height=\"{h:.0f}\" rx=\"6\" class=\"ground\"/>\n",
-               escaped(panel_.title), k_style, fmt::arg("w", k_width), fmt::arg("h", height)) +
+               io::xml_text(panel_.title), k_style, fmt::arg("w", k_width), fmt::arg("h", height)) +
            body + legend.svg + "</svg>\n";
   }
 
@@ -258,7 +205,7 @@ class Painter {
           const std::string fill = row.same_law ? fmt::format(" fill=\"{}\"", colour) : std::string{};
           svg += fmt::format("<path d=\"{}\" class=\"{}{}\"{} stroke=\"{}\"><title>{}</title></path>\n",
                              marker(at.x, at.y, row.space, r), row.same_law ? "" : "hollow", best ? " best" : "",
-                             fill, colour, escaped(tooltip(panel_, row)));
+                             fill, colour, io::xml_text(tooltip(panel_, row)));
           if (dotted) svg += dot(at.x, at.y, row.same_law ? nullptr : colour);
           if (!plot_.error.holds(row.error)) {  // beyond the frame: an arrow says where to
             const double up = row.error > plot_.error.high() ? -1 : 1;
@@ -306,7 +253,7 @@ class Painter {
       const double x = plot_.time.place(time), y = k_top - 9;
       svg += fmt::format("<path d=\"M{:.1f} {:.1f}l7 7m0 -7l-7 7\" class=\"failed\"><title>{}</title></path>\n",
                          x - 3.5, y - 3.5,
-                         escaped(fmt::format("{}\n{}: {}", name_of(row), word(row.status), row.message)));
+                         io::xml_text(fmt::format("{}\n{}: {}", name_of(row), word(row.status), row.message)));
     }
     if (count == 0) return {};
     const std::string what = count > unplaced ? fmt::format("× {} diverged or stopped, {} refused or not started",
@@ -386,46 +333,6 @@ class Painter {
 };
 
 }  // namespace
-
-Colours::Colours(const std::vector<Panel>& panels) {
-  for (const Panel& panel : panels)
-    if (panel.in_motion && usual_.empty() && !panel.rows.empty() && !panel.rows.front().integrator.empty())
-      usual_ = ", " + panel.rows.front().integrator;
-  for (const Panel& panel : panels)
-    for (const Series& s : series(panel)) number_.emplace(key(s.colour_name), number_.size());
-}
-
-std::string Colours::key(const std::string& colour_name) const {
-  const bool ends = !usual_.empty() && colour_name.ends_with(usual_);
-  return ends ? colour_name.substr(0, colour_name.size() - usual_.size()) : colour_name;
-}
-
-Colours::Look Colours::of(const std::string& colour_name) const {
-  const auto found = number_.find(key(colour_name));
-  const std::size_t number = found == number_.end() ? k_colours.size() - 1 : found->second;
-  return {k_colours[number % k_colours.size()], number >= k_colours.size()};
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n') result += c;
-    }
-  return result;
-}
 
 std::string picture(const Panel& panel, const Colours& colours) {
   return Painter(panel, colours).draw();

@@ -15,9 +15,8 @@ namespace argil::chart {
 
 namespace {
 
-constexpr std::string_view k_published = "published";  // model, space and integrator, together papers/004's method
-constexpr double k_short_run = 0.1;                    // [s]
-constexpr double k_bound = 100;  // times the body's size: a motion that goes farther has diverged
+constexpr double k_short_run = 0.1;  // [s]
+constexpr double k_bound = 100;      // times the body's size: a motion that goes farther has diverged
 
 struct OverTime {};
 
@@ -192,8 +191,7 @@ std::vector<Run> plan(const Lists& lists, Breadth breadth) {
         for (const SpaceRow& space : lists.spaces) {
           const bool usual_model = &model == &lists.models.front(), usual_space = &space == &lists.spaces.front();
           if (!space.has_hexahedra && model.choice.formulation != fem::Formulation::plain) continue;
-          const bool published_model = model.choice.name == k_published;
-          const bool as_published = published_model && space.name == k_published;
+          const bool as_published = model.of_published_method && space.of_published_method;
           if (quick && !usual_model && !usual_space && !as_published) continue;
           Run run{&problem, &model, &space, nullptr, problem.resolutions[depth], 0};
           if (problem.analysis != Analysis::motion) {
@@ -202,7 +200,7 @@ std::vector<Run> plan(const Lists& lists, Breadth breadth) {
           }
           for (const fem::MethodKind& integrator : lists.integrators) {
             const bool usual_integrator = &integrator == &lists.integrators.front();
-            const bool whole_scheme = published_model && integrator.name == k_published;
+            const bool whole_scheme = model.of_published_method && integrator.of_published_method;
             if (breadth != Breadth::all && !usual_integrator && !usual_model && !whole_scheme) continue;
             if (quick && !usual_integrator && !usual_space && !(whole_scheme && as_published)) continue;
             if (quick && as_published && !whole_scheme) continue;

@@ -209,26 +209,19 @@ struct SpectralProduct {
   }
 };
 
+/// An operation of kernel_variants.h.
 template <class Operation, class Shape, bool Mean>
-__attribute__((flatten)) void run_law_baseline(const PacketArguments& a, std::size_t begin, std::size_t end) {
-  Operation::template run<Shape, Baseline, Mean>(a, begin, end);
-}
-#if defined(__x86_64__)
-template <class Operation, class Shape, bool Mean>
-__attribute__((target("avx2"), flatten)) void run_law_avx2(const PacketArguments& a, std::size_t begin,
-                                                           std::size_t end) {
-  Operation::template run<Shape, Avx2, Mean>(a, begin, end);
-}
-#endif
+struct LawOnShape {
+  template <class Isa>
+  static ARGIL_LANES_INLINE void run(const PacketArguments& a, std::size_t begin, std::size_t end) {
+    Operation::template run<Shape, Isa, Mean>(a, begin, end);
+  }
+};
 
 template <class Operation, class Shape, bool Mean>
 PacketKernel choose_kernel(Instructions instructions) {
-#if defined(__x86_64__)
-  if (instructions == Instructions::best && __builtin_cpu_supports("avx2"))
-    return run_law_avx2<Operation, Shape, Mean>;
-#endif
-  (void)instructions;
-  return run_law_baseline<Operation, Shape, Mean>;
+  return kernel_variant<LawOnShape<Operation, Shape, Mean>, const PacketArguments&, std::size_t, std::size_t>(
+      instructions);
 }
 
 /// `product` of the shape, for any law.
@@ -260,5 +253,6 @@ HyperelasticKernels law_kernels(const ElementKind& kind, bool mean, Instructions
 HyperelasticKernels corotational_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels stable_neo_hookean_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 HyperelasticKernels st_venant_kirchhoff_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
+HyperelasticKernels neo_hookean_law_kernels(const ElementKind& kind, bool mean, Instructions isa);
 
 }  // namespace argil::fem

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fem/models/laws/law.h"
+#include "fem/models/laws/strain_invariants.h"
 
 namespace argil::fem {
 
@@ -44,19 +45,7 @@ struct StableNeoHookeanLaw {
   /// In the strain E, where the parts that are linear in it cancel on paper instead of in the last digits:
   /// I_C − 3 = 2t, J² − 1 = 2t + 4 II + 8 III with t, II, III the invariants of E.
   static ARGIL_LANES_INLINE Lanes density(const LawState& s, const PointMaterial& m) {
-    const Lanes* f = s.f.m;
-    LaneSymmetric e;  // xx yy zz xy xz yz
-    for (int i = 0; i < 3; ++i) e.m[i] = 0.5 * (f[i] * f[i] + f[3 + i] * f[3 + i] + f[6 + i] * f[6 + i] - 1.0);
-    constexpr int k_row[3] = {0, 0, 1}, k_column[3] = {1, 2, 2};
-    for (int k = 0; k < 3; ++k) {
-      const int i = k_row[k], j = k_column[k];
-      e.m[3 + k] = 0.5 * (f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j]);
-    }
-    const Lanes t = e.m[0] + e.m[1] + e.m[2];
-    const Lanes second = (e.m[0] * e.m[1] - e.m[3] * e.m[3]) + (e.m[0] * e.m[2] - e.m[4] * e.m[4]) +
-                         (e.m[1] * e.m[2] - e.m[5] * e.m[5]);
-    const Lanes third = e.m[0] * (e.m[1] * e.m[2] - e.m[5] * e.m[5]) -
-                        e.m[3] * (e.m[3] * e.m[2] - e.m[4] * e.m[5]) + e.m[4] * (e.m[3] * e.m[5] - e.m[1] * e.m[4]);
+    const auto [t, second, third] = strain_invariants(s.f);
     const auto upright = s.dilatation > -0.5;
     const Lanes over = 1.0 / (upright ? 2.0 + s.dilatation : broadcast(1));
     const Lanes theta = upright ? (2.0 * t + 4.0 * second + 8.0 * third) * over : s.dilatation;

@@ -67,7 +67,7 @@ TEST(QuadraticTetrahedra, VolumeMassAndZeroModes) {
   const Eigen::VectorXd x = exact.rest_nodes.row(0).transpose(), square = x.cwiseProduct(x);
   EXPECT_NEAR(x.dot(exact.mass * x), 3 * 8.0 / 3, 1e-12);
   EXPECT_NEAR(square.dot(exact.mass * square), 3 * 32.0 / 5, 1e-12);  // degree four: four points would miss it
-  for (const std::string name : {"corotational", "stable_neo_hookean", "warped_stiffness"})
+  for (const std::string name : {"corotational", "stable_neo_hookean", "neo_hookean", "warped_stiffness"})
     make_model({name}, d.blocks, d.rest_nodes)
         ->tangent(d.rest_nodes, Projection::none)
         ->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& k) {
@@ -83,7 +83,8 @@ TEST(QuadraticTetrahedra, PatchTestIsExact) {
   const Discretization d = quadratic_tetrahedra(built.solid, built.positions, fields_of(built, {}));
   Eigen::Matrix3d affine;
   affine << 1.1, 0.05, -0.02, 0.03, 0.95, 0.1, -0.04, 0.02, 1.05;
-  for (const std::string name : {"corotational", "linear", "stable_neo_hookean", "st_venant_kirchhoff"}) {
+  for (const std::string name :
+       {"corotational", "linear", "stable_neo_hookean", "neo_hookean", "st_venant_kirchhoff"}) {
     Eigen::Matrix3Xd f;
     make_model({name}, d.blocks, d.rest_nodes)->forces(affine * d.rest_nodes, f);
     double inside = 0;

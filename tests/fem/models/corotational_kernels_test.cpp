@@ -3,22 +3,17 @@
 #include "fem/models/corotational_kernels.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-
-#include <cstring>
 
 #include "fem/models/element_packets.h"
 #include "fem/models/force_model.h"
 #include "tests/fem/element_bodies.h"
+#include "tests/fem/models/kernel_comparisons.h"
 
 namespace argil::fem {
 namespace {
 
 using test::Body;
-
-bool same_bits(const std::vector<FourDoubles>& a, const std::vector<FourDoubles>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(FourDoubles)) == 0;
-}
+using test::same_bits;
 
 Eigen::Matrix3Xd crushed(const Body& body) {
   Eigen::Matrix3Xd x = body.rest + test::random_vectors(body.rest.cols(), 0.15, 41);
@@ -71,13 +66,8 @@ TEST(CorotationalKernels, WiderInstructionsGiveTheSameBits) {
 
 TEST(CorotationalKernels, AxisByAxisAndTheTablesAgree) {
   for (const Body& body : test::all_bodies()) {
-    Body dense = body;
-    std::vector<ElementKind> copies;
-    copies.reserve(body.blocks.size());
-    for (ElementBlock& block : dense.blocks) {
-      copies.push_back(*block.kind);  // at another address, it is taken as a kind of its own
-      block.kind = &copies.back();
-    }
+    const test::BodyByTables by_tables(body);
+    const Body& dense = by_tables.body;
     const auto fast = make_corotational(body.blocks, body.rest);
     const auto plain = make_corotational(dense.blocks, dense.rest);
     const Eigen::Matrix3Xd x = crushed(body), dx = test::random_vectors(x.cols(), 1, 47);
@@ -95,23 +85,8 @@ TEST(CorotationalKernels, AxisByAxisAndTheTablesAgree) {
 TEST(CorotationalKernels, ThreadsDoNotChangeABit) {
   for (const Body& body : {test::mixed(7, 0.1), test::bspline(3, 0.05)}) {
     const Eigen::Matrix3Xd x = crushed(body), dx = test::random_vectors(x.cols(), 1, 53);
-    Eigen::Matrix3Xd forces[2], products[2];
-    double energies[2], sums[2] = {0, 0};
-    for (const int many : {0, 1}) {
-      const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, many ? 4 : 1);
-      const auto model = make_corotational(body.blocks, body.rest);
-      model->forces(x, forces[many]);
-      energies[many] = model->energy(x);
-      const auto tangent = model->tangent(x, Projection::positive_semidefinite);
-      tangent->stiffness_product(dx, products[many]);
-      tangent->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& stiffness) {
-        sums[many] = 0.9 * sums[many] + stiffness(1, 2);  // feels the order
-      });
-    }
-    EXPECT_EQ(forces[0], forces[1]) << body.name;
-    EXPECT_EQ(products[0], products[1]) << body.name;
-    EXPECT_EQ(energies[0], energies[1]) << body.name;
-    EXPECT_EQ(sums[0], sums[1]) << body.name;
+    SCOPED_TRACE(body.name);
+    test::expect_the_same_by_any_threads([&] { return make_corotational(body.blocks, body.rest); }, x, dx);
   }
 }
 

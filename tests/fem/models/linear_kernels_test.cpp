@@ -3,23 +3,18 @@
 #include "fem/models/linear_kernels.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-
-#include <cstring>
 
 #include "fem/models/element_packets.h"
 #include "fem/models/element_stiffness.h"
 #include "fem/models/linear.h"
 #include "tests/fem/element_bodies.h"
+#include "tests/fem/models/kernel_comparisons.h"
 
 namespace argil::fem {
 namespace {
 
 using test::Body;
-
-bool same_bits(const std::vector<FourDoubles>& a, const std::vector<FourDoubles>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(FourDoubles)) == 0;
-}
+using test::same_bits;
 
 constexpr Formulation k_formulations[] = {Formulation::plain, Formulation::b_bar};
 
@@ -97,13 +92,8 @@ TEST(LinearKernels, FarFromTheOriginNothingIsLostButWhatThePositionsLose) {
 
 TEST(LinearKernels, CornersAndTablesAgree) {
   for (const Body& body : test::all_bodies()) {
-    Body dense = body;
-    std::vector<ElementKind> copies;
-    copies.reserve(body.blocks.size());
-    for (ElementBlock& block : dense.blocks) {
-      copies.push_back(*block.kind);  // at another address, it is taken as a kind of its own
-      block.kind = &copies.back();
-    }
+    const test::BodyByTables by_tables(body);
+    const Body& dense = by_tables.body;
     const Eigen::Matrix3Xd dx = test::random_vectors(body.rest.cols(), 1, 11);
     Eigen::Matrix3Xd a, b;
     make_linear(body.blocks, body.rest)->tangent(body.rest, Projection::none)->stiffness_product(dx, a);
@@ -147,24 +137,10 @@ TEST(LinearKernels, ThreadsDoNotChangeABit) {
   for (const Body& body : {test::mixed(7, 0.1), test::bspline(3, 0.05)})
     for (const Formulation formulation :
          {Formulation::plain, Formulation::b_bar, Formulation::incompatible_modes}) {
+      SCOPED_TRACE(body.name);
       const Eigen::Matrix3Xd x = body.rest + test::random_vectors(body.rest.cols(), 0.05, 53);
-      Eigen::Matrix3Xd forces[2], products[2];
-      double energies[2], sums[2] = {0, 0};
-      for (const int many : {0, 1}) {
-        const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, many ? 4 : 1);
-        const auto model = make_linear_as(body.blocks, body.rest, formulation);
-        model->forces(x, forces[many]);
-        energies[many] = model->energy(x);
-        const auto tangent = model->tangent(x, Projection::none);
-        tangent->stiffness_product(x, products[many]);
-        tangent->element_tangents([&](std::span<const std::uint32_t>, const Eigen::MatrixXd& stiffness) {
-          sums[many] = 0.9 * sums[many] + stiffness(1, 2);  // feels the order
-        });
-      }
-      EXPECT_EQ(forces[0], forces[1]) << body.name;
-      EXPECT_EQ(products[0], products[1]) << body.name;
-      EXPECT_EQ(energies[0], energies[1]) << body.name;
-      EXPECT_EQ(sums[0], sums[1]) << body.name;
+      test::expect_the_same_by_any_threads([&] { return make_linear_as(body.blocks, body.rest, formulation); }, x,
+                                           x);
     }
 }
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
+#include "fem/dynamics/method.h"
 #include "subdiv/error.h"
 #include "tests/fem/element_bodies.h"
 #include "tests/fem/models/model_calls.h"
@@ -345,6 +347,16 @@ TEST(ModelTable, RefusesWhatAModelLacks) {
       EXPECT_THROW(check_model({name, Formulation::incompatible_modes}), Error);
     }
   }
+}
+
+TEST(ModelTable, OneModelAndOneIntegratorMakeUpThePublishedMethod) {
+  const auto of = [](const auto& kind) { return kind.of_published_method; };
+  const auto models = model_table();
+  const auto methods = method_table();
+  ASSERT_EQ(std::count_if(models.begin(), models.end(), of), 1);
+  ASSERT_EQ(std::count_if(methods.begin(), methods.end(), of), 1);
+  EXPECT_EQ(std::find_if(models.begin(), models.end(), of)->name, "published");
+  EXPECT_EQ(std::find_if(methods.begin(), methods.end(), of)->method, Method::published);
 }
 
 }  // namespace

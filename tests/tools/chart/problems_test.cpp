@@ -11,42 +11,16 @@
 #include <numbers>
 
 #include "fem/solvers/rest_operator.h"
-#include "subdiv/error.h"
+#include "tests/tools/chart/runs.h"
 #include "tools/chart/frequencies.h"
-#include "tools/chart/runner.h"
 
 namespace argil::chart {
 namespace {
 
-const Lists& lists() {
-  static const Lists all = all_lists();
-  return all;
-}
-const ModelRow& model(const std::string& name) {
-  for (const ModelRow& row : lists().models)
-    if (row.name() == name) return row;
-  throw Error(ErrorCode::not_found, name);
-}
-const SpaceRow& space(const std::string& name) {
-  for (const SpaceRow& row : lists().spaces)
-    if (row.name == name) return row;
-  throw Error(ErrorCode::not_found, name);
-}
-
-Row run(const Problem& problem, const std::string& of_model, const std::string& in_space, int resolution,
-        const std::string& integrator = {}, double time_step = 0) {
-  Run what{&problem, &model(of_model), &space(in_space), nullptr, resolution, time_step};
-  if (!integrator.empty()) what.integrator = &fem::method_by_name(integrator);
-  Setting setting;
-  setting.repeats = 1;
-  Row row = execute(what, setting);
-  EXPECT_EQ(row.status, Status::ok) << what.label() << ": " << row.message;
-  return row;
-}
-Row run(const std::string& problem, const std::string& of_model, const std::string& in_space, int resolution,
-        const std::string& integrator = {}, double time_step = 0) {
-  return run(problem_by_name(problem), of_model, in_space, resolution, integrator, time_step);
-}
+using test::lists;
+using test::model;
+using test::run;
+using test::space;
 
 double order(double coarse, double fine) {
   return std::log2(coarse / fine);
