@@ -96,7 +96,7 @@ class Smooth : public ForceTool {
     middle_ = middle_of(touched);
     // Means reach beyond what is touched, and what is there feels the opposite force.
     Tool wide = tool_;
-    wide.radius *= 1.5;
+    wide.radius *= 2;
     wide.falloff = "constant";
     const Touched around = sculpt::touched(document, wide, at_, touched.inside);
     const Eigen::Matrix3Xd nodes = subdiv::apply(document.discretization().nodes.rows, document.positions());
@@ -129,7 +129,7 @@ class Smooth : public ForceTool {
     }
     std::sort(near.begin(), near.end());
     if (near.size() < 4) return;
-    const double reach = std::max(tool_.radius / 2, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
+    const double reach = std::max(tool_.radius, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
     std::size_t count = 0;
     while (count < near.size() && near[count].distance < reach) ++count;
 
