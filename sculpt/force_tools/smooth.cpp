@@ -123,7 +123,6 @@ class Smooth : public ForceTool {
     std::vector<Near> near;
     for (std::size_t j = 0; j < around.points.size(); ++j) {
       const auto c = static_cast<Eigen::Index>(j);
-      // Not the other side of a thin sheet.
       if (!touched.inside && normals.col(c).dot(normal) <= 0) continue;
       near.push_back({(places.col(c) - centre).norm(), j});
     }
@@ -149,6 +148,8 @@ class Smooth : public ForceTool {
       for (Eigen::Index a = 0; a < frame.cols(); ++a) offsets(a, j) = frame.col(a).dot(offset) / reach;
       const double s = other.distance / reach;
       weights[j] = around.weights[at] * (1 - s * s) * (1 - s * s);
+      // Not the other side of a thin sheet, and beyond an edge the less the sharper it is.
+      if (!touched.inside) weights[j] *= normals.col(at).dot(normal);
     }
     if (!mean_weights(offsets, weights)) return;
     std::vector<fem::PointStencil> points{touched.points[i]};

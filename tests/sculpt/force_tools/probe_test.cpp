@@ -73,6 +73,15 @@ TEST(Probe, ChangesNothing) {
   EXPECT_EQ(session.document().positions(), positions);
 }
 
+TEST(Probe, IsAMeasureAtAMaterialPoint) {
+  TestSession session(cushion());
+  const double here = session.measure("felt_stiffness at 0.15 0.15 0.14");
+  const Eigen::Vector3d at(0.15, 0.15, 0.14);
+  EXPECT_NEAR(here, Probe(session.document()).read(session.state().tool, at).stiffness, 1e-6 * here);
+  session.run({"set young_modulus 3e5"});
+  EXPECT_NEAR(session.measure("felt_stiffness at 0.15 0.15 0.14"), 3 * here, 1e-3 * here);
+}
+
 TEST(Probe, IsFeltAsAWall) {
   TestSession session(cushion());
   Stroke stroke(session.session(), {{0.15, 0.15, 0.14}});

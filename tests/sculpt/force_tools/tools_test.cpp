@@ -230,7 +230,7 @@ TEST_P(Tools, SmoothLeavesFlatSurfacesAndDrawsBumpsDown) {
   EXPECT_LT(forces_of(smooth->loads({k_top}, p), p).norm(), 1e-12);
   const Eigen::Matrix3Xd q = crumpled(p, 0.03);
   for (const auto* one : {smooth.get(), sharpen.get()}) {
-    const fem::Wrench wrench = fem::wrench(forces_of(one->loads({k_top}, q), q), q);
+    const fem::Wrench wrench = one->wrench({k_top}, q);
     EXPECT_LT(wrench.force.norm(), 1e-10);
     EXPECT_LT(wrench.moment.norm(), 1e-10);
   }
@@ -248,16 +248,16 @@ TEST_P(Tools, SmoothPressesABumpFlatAgainstNothing) {
   auto lines = block(GetParam());
   lines.insert(lines.begin() + 1,
                "move 0 0 0.04 where x > 0.09 and x < 0.11 and y > 0.09 and y < 0.11 and z > 0.19");
-  lines.insert(lines.end(), {"set damping 20", "tool smooth radius 0.12 strength 200000"});
+  lines.insert(lines.end(), {"set damping 20", "tool smooth radius 0.08 strength 200000"});
   TestSession session(lines);
   Eigen::Index bump = 0;
   session.document().rest().row(2).maxCoeff(&bump);
   const double before = session.document().positions()(2, bump);
   session.run({"stroke from 0.1 0.1 0.22 to 0.1 0.1 0.22 ticks 1000"});
   EXPECT_LT(session.document().positions()(2, bump), before - 0.003);
-  // Nothing but the inside of the body bears it: of forces that sum to some 400 N in size, 2e5 N/m times bumps of
-  // 2 mm, the pins feel what Newton's tolerance leaves.
-  EXPECT_LT(std::abs(session.measure("reaction_z")), 1);
+  // Nothing but the inside of the body bears it: of forces that sum to some 100 N in size, the pins feel what the
+  // tolerance of Newton's method leaves.
+  EXPECT_LT(std::abs(session.measure("reaction_z")), 0.01);
 }
 
 TEST(Tools, EveryToolKeepsItsLimit) {
