@@ -94,6 +94,8 @@ bool Bench::run_one(const std::string& text) {
   const std::size_t depth = session_->undo_depth();
   session_->run_line(line);
   const std::string written = io::format_line(line.tokens);
+  const std::string& name = line.tokens[0].text;
+  if (name == "new" || name == "open" || name == "solidify") ++solids_;
   const sculpt::Effect effect = sculpt::find_command(line).effect;
   if (effect == sculpt::Effect::history)
     ++lines_;
@@ -106,7 +108,7 @@ bool Bench::run(const std::string& line) {
   return run_together({line});
 }
 
-bool Bench::run_together(const std::vector<std::string>& lines) {
+bool Bench::run_together(const std::vector<std::string>& lines, bool joins_last) {
   if (stroke_) end_stroke(false);
   const std::size_t depth = session_->undo_depth();
   played_last_ = false;
@@ -117,7 +119,7 @@ bool Bench::run_together(const std::vector<std::string>& lines) {
     say(MessageKind::error, error.what());
     well = false;
   }
-  mark_change(depth, false);
+  mark_change(depth, joins_last);
   changed_ = whole_ = history_changed_ = shade_again_ = true;
   return well;
 }

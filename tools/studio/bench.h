@@ -29,8 +29,8 @@ class Bench {
 
   /// Runs a line of the session. What it says, and an Error, become messages. Returns whether it ran.
   bool run(const std::string& line);
-  /// Lines that are undone together.
-  bool run_together(const std::vector<std::string>& lines);
+  /// Lines that are undone together; with `joins_last`, together with what was done last.
+  bool run_together(const std::vector<std::string>& lines, bool joins_last = false);
   void undo();
   void redo();
   /// A session file begins a new journal; a volume mesh is opened by a line. Errors become messages.
@@ -83,6 +83,7 @@ class Bench {
   Shown shown_;
   std::filesystem::path file_;
   std::size_t lines_ = 0, saved_lines_ = 0;
+  std::uint64_t solids_ = 0;
   long missed_ticks_ = 0;
   bool changed_ = true, whole_ = true, history_changed_ = true, shade_again_ = true;
   std::shared_ptr<const Snapshot> last_;

@@ -155,6 +155,7 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   next->journal_lines = lines_;
   next->saved = lines_ == saved_lines_;
   next->file = file_.string();
+  next->solid_number = solids_;
   next->playing = playing_;
   next->stroke.reset();
   if (stroke_) next->stroke = stroke_->now();

@@ -44,6 +44,7 @@ struct Snapshot {
   // What is drawn.
   std::uint64_t layout = 0;  // another one: faces, not only places, have changed
   std::uint64_t version = 0;
+  std::uint64_t solid_number = 0;              // another one: a solid was begun or opened
   bool shade_again = false;                    // came to rest: hollows may be measured anew
   std::shared_ptr<const sculpt::Scene> scene;  // null: there is no solid
   std::vector<float> young_modulus, strain;    // per surface vertex, as of the last rest; may be empty

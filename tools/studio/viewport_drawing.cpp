@@ -1,0 +1,172 @@
+// Of viewport.h: what is drawn.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/studio/quantity.h"
+#include "tools/studio/viewport.h"
+
+namespace argil::studio {
+
+namespace {
+
+constexpr int k_samples = 4;
+constexpr double k_longest_arrow = 0.45;  // of the solid's radius, at the force limit or where the force is large
+
+}  // namespace
+
+void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) {
+  const Snapshot& now = *desk.now;
+  const Settings& settings = desk.settings;
+  if (!target_ || target_->width() != input.width || target_->height() != input.height)
+    target_ = std::make_unique<view::SampledTarget>(*gl_, input.width, input.height, k_samples);
+
+  if (now.version != version_ || layout_ == 0 || !loaded_ != !now.scene) {
+    static const sculpt::Scene k_nothing;
+    const sculpt::Scene& scene = now.scene ? *now.scene : k_nothing;
+    if (layout_ == 0 || now.layout != layout_ || !loaded_ != !now.scene) {
+      // Coordinates of the picture stay while the solid is of about the same size, so that nothing swims.
+      const Box box = box_of(now);
+      if (layout_ == 0 || !(box.radius() < 2 * place_.radius && box.radius() > 0.3 * place_.radius))
+        place_ = view::place_of(scene.surface.positions);
+      painter_.load(scene, place_, {.wireframe = settings.wireframe, .light_theme = settings.light});
+    } else if (now.scene != loaded_ || now.shade_again) {
+      painter_.move(scene, place_, now.shade_again);
+    }
+    layout_ = std::max<std::uint64_t>(1, now.layout);
+    version_ = now.version;
+    loaded_ = now.scene;
+  }
+  painter_.set_look(settings.wireframe, settings.light);
+
+  // The force, where it holds the solid.
+  const Tokens& t = desk.ui->tokens();
+  if (now.stroke && now.stroke->force.norm() > 0) {
+    const double most =
+        now.tool.largest_force < 1e5 ? now.tool.largest_force : now.tool.strength * 0.5 * box_of(now).radius();
+    const double share = now.stroke->force.norm() / std::max(1e-12, most);
+    const double length = k_longest_arrow * place_.radius * 2 * std::min(1.0, std::sqrt(share));
+    const Eigen::Vector3d tip = now.stroke->held + length * now.stroke->force.normalized();
+    painter_.set_arrows({{place_(now.stroke->held.cast<float>()), place_(tip.cast<float>())}},
+                        colour_of(now.stroke->at_limit ? t.warning : t.accent));
+  } else if (now.scene) {
+    std::vector<sculpt::SceneArrow> arrows;
+    for (const sculpt::SceneArrow& arrow : now.scene->arrows)
+      arrows.push_back({place_(arrow.from), place_(arrow.to)});
+    painter_.set_arrows(std::move(arrows), colour_of(t.accent));
+  }
+
+  // The brush, on the surface itself.
+  view::BrushMark brush;
+  const bool shows_brush =
+      now.scene && desk.tool().kind != ToolKind::probe && desk.tool().kind != ToolKind::extrude;
+  const double radius = drag_ == Drag::radius ? brush_now_ : now.tool.radius;
+  brush.radius = static_cast<float>(radius / place_.radius);
+  brush.falloff = now.tool.falloff == "linear" ? 1 : now.tool.falloff == "constant" ? 2 : 0;
+  Ink tint = inverts_ ? t.mark : t.accent;
+  if (shows_brush && now.stroke) {
+    if (now.stroke->at_limit) tint = t.warning;
+    brush.middles = {place_(now.stroke->held.cast<float>())};
+  } else if (shows_brush && hover_) {
+    brush.middles = {place_(hover_->at.cast<float>())};
+    if (settings.symmetry) {
+      const Eigen::Vector3d other(-hover_->at.x(), hover_->at.y(), hover_->at.z());
+      brush.middles.push_back(place_(other.cast<float>()));
+    }
+  }
+  brush.tint = colour_of(tint);
+  painter_.set_brush(std::move(brush));
+
+  Box box = box_of(now);
+  if (now.stroke) {
+    const Eigen::Vector3d reach = now.stroke->held + now.stroke->force.normalized() * place_.radius;
+    if (reach.allFinite()) box = {box.low.cwiseMin(reach), box.high.cwiseMax(reach)};
+  }
+  target_->bind();
+  const view::Sampling sampling{input.width, input.height, 1, input.scale};
+  painter_.paint(camera_.camera(place_, box), sampling, 0, 0);
+  target_->resolve(framebuffer);
+}
+
+void Viewport::draw_marks(Desk& desk) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Snapshot& now = *desk.now;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const auto label = [&](Eigen::Vector2d at, const std::string& line, Ink colour) {
+    const float width = ui.width_of(ui.fonts().small_strong, line) + ui.px(14), height = ui.px(22);
+    const Rect place{static_cast<float>(at.x()), static_cast<float>(at.y()) - 0.5F * height, width, height};
+    ui.box(draw, place, faded(t.panel, 0.92F), 4);
+    ui.text(draw, ui.fonts().small_strong, place, colour, line, Side::centre);
+  };
+  const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ink colour, float width) {
+    const Eigen::Vector2d from = camera_.pixel(a), to = camera_.pixel(b);
+    draw.AddLine({static_cast<float>(from.x()), static_cast<float>(from.y())},
+                 {static_cast<float>(to.x()), static_cast<float>(to.y())}, colour, ui.px(width));
+  };
+
+  if (desk.settings.symmetry && now.scene) {
+    const Box box = box_of(now);
+    const double reach = 0.08 * box.radius();
+    const Eigen::Vector3d a(0, box.low.y() - reach, box.low.z()), b(0, box.high.y() + reach, box.low.z()),
+        c(0, box.high.y() + reach, box.high.z() + reach), d(0, box.low.y() - reach, box.high.z() + reach);
+    const Eigen::Vector3d* corners[] = {&a, &b, &c, &d, &a};
+    for (int i = 0; i < 4; ++i) line(*corners[i], *corners[i + 1], faded(t.mark, 0.55F), 1);
+  }
+  if (desk.settings.cut && now.scene) {
+    const Settings& s = desk.settings;
+    const Box box = box_of(now);
+    Eigen::Index axis = 0;
+    s.cut_normal.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Vector3d side = Eigen::Vector3d::Unit((axis + 1) % 3),
+                          other = Eigen::Vector3d::Unit((axis + 2) % 3);
+    const Eigen::Vector3d half = 0.56 * (box.high - box.low);
+    const double u = half.dot(side), v = half.dot(other);
+    const Eigen::Vector3d& p = s.cut_point;
+    const Eigen::Vector3d corners[] = {p - u * side - v * other, p + u * side - v * other, p + u * side + v * other,
+                                       p - u * side + v * other};
+    for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], faded(t.mark, 0.6F), 1);
+    const Eigen::Vector3d tip = p + 0.16 * box.radius() * s.cut_normal;
+    line(p, tip, t.mark, 2);
+    const Eigen::Vector2d handle = camera_.pixel(p);
+    const ImVec2 at{static_cast<float>(handle.x()), static_cast<float>(handle.y())};
+    draw.AddCircleFilled(at, ui.px(7), t.panel, 24);
+    draw.AddCircleFilled(at, ui.px(5), t.mark, 24);
+    ui.note_control(ControlKind::button, "Handle of the cut",
+                    "Drag it along the arrow, or turn the wheel, to move the plane", "",
+                    {at.x - ui.px(9), at.y - ui.px(9), ui.px(18), ui.px(18)});
+  }
+
+  const auto shift = [&](const Eigen::Vector3d& at, double right, double down) {
+    return Eigen::Vector2d(camera_.pixel(at) +
+                           Eigen::Vector2d(ui.px(static_cast<float>(right)), ui.px(static_cast<float>(down))));
+  };
+  if (now.stroke && now.stroke->force.norm() > 0) {
+    const Quantity force = shown(now.stroke->force.norm(), "N");
+    label(Eigen::Vector2d(x_ + ui.px(18), y_ - ui.px(14)), force.number + ' ' + force.unit,
+          now.stroke->at_limit ? t.warning : t.accent);
+  }
+  if (drag_ == Drag::radius || drag_ == Drag::strength) {
+    const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");
+    label(Eigen::Vector2d(x_ + ui.px(18), y_), size.number + ' ' + size.unit, t.accent);
+  }
+  if (drag_ == Drag::extrude) {
+    const double distance = (device_ - grip_).dot(grip_normal_);
+    const Eigen::Vector3d tip = grip_ + distance * grip_normal_;
+    line(grip_, tip, t.accent, 2);
+    const Quantity length = shown(distance, "m");
+    label(shift(tip, 10, 0), length.number + ' ' + length.unit, t.accent);
+  }
+  if (desk.tool().kind == ToolKind::probe && hover_ && drag_ == Drag::none) {
+    const Quantity young = shown(desk.reading.young_modulus, "Pa");
+    std::string words = young.number + ' ' + young.unit;
+    if (desk.reading.strain >= 0) words += "  ·  " + shown(100 * desk.reading.strain, "%").number + " %";
+    label(Eigen::Vector2d(x_ + ui.px(16), y_), words, t.text);
+  }
+}
+
+}  // namespace argil::studio
