@@ -45,6 +45,7 @@ void Bench::draw_scene(Snapshot& next) {
   request.range = shown_.range;
   request.clip = shown_.clip;
   request.cage = shown_.cage;
+  request.control_wire = !shown_.finest_wires;
   std::shared_ptr<sculpt::Scene> scene;
   try {
     scene = std::make_shared<sculpt::Scene>(sculpt::make_scene(document, request));

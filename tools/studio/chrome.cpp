@@ -33,11 +33,21 @@ Layout lay_out(const Desk& desk, int width, int height) {
   l.panel = {w - gap - panel, top, panel, bottom - top};
   l.legend = {l.panel.x - gap - ui.px(96), top, ui.px(96), std::min(ui.px(320), bottom - top)};
   const float left = l.shelf.right() + gap;
-  l.free = {left, menu, l.panel.x - gap - left, l.timeline.y - menu};
+  l.free = {left, menu, l.panel.x - gap - left, l.timeline.y - menu - ui.px(44)};
   return l;
 }
 
 namespace {
+
+std::string grouped(std::size_t number) {
+  const std::string digits = fmt::format("{}", number);
+  std::string result;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) result += ',';
+    result += digits[i];
+  }
+  return result;
+}
 
 void draw_actions(Desk& desk, const Menu& menu, const Perform& perform) {
   const Settings& s = desk.settings;
@@ -333,9 +343,9 @@ void draw_status(Desk& desk, const Layout& layout) {
   word(desk.virtual_clock || now.steps == 0 ? "— ms" : fmt::format("{:.1f} ms", now.step_ms), true);
   end(from, "Step", "What a step of the simulation costs, mean of the last thirty", "ms");
   from = begin();
-  word(fmt::format("{}", now.elements), true);
+  word(grouped(now.elements), true);
   word(" elements  ·  ", false);
-  word(fmt::format("{}", now.unknowns), true);
+  word(grouped(now.unknowns), true);
   word(" unknowns", false);
   end(from, "Size", "Finite elements, and numbers that a step solves for", "1");
   from = begin();
@@ -449,7 +459,7 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
                                         {icons::expand, "F", "sizes the brush"},
                                         {icons::deflate, "Ctrl", "turns the tool round"}};
     const float width = ui.px(560), height = ui.px(118);
-    const Rect place{middle - 0.5F * width, free.bottom() - height - ui.px(16), width, height};
+    const Rect place{middle - 0.5F * width, layout.timeline.y - height - ui.px(16), width, height};
     ui.begin_panel("card", place, 0, 0);
     ImDrawList& draw = ui.list();
     draw.PushClipRectFullScreen();
@@ -488,7 +498,7 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
   }
   if (tool.kind == ToolKind::force) hints.push_back({"Shift", " smooths"});
   if (desk.settings.cut) hints.push_back({"Wheel", " moves the cut"});
-  pill(hints, free.bottom() - ui.px(16));
+  pill(hints, layout.timeline.y - ui.px(16));
 }
 
 }  // namespace argil::studio

@@ -81,6 +81,7 @@ void Desk::show() const {
     shown.range = {settings.range_low, settings.range_high};
   if (settings.cut) shown.clip = sculpt::ClipPlane{settings.cut_point, settings.cut_normal};
   shown.cage = settings.cage;
+  shown.finest_wires = settings.finest_wires;
   workshop->post([shown](Bench& bench) { bench.show(shown); });
 }
 

@@ -31,7 +31,8 @@ inline constexpr std::array<const char*, 5> k_panel_names{"Tool", "Material", "P
 
 struct Settings {
   std::size_t tool = 0;  // of the shelf
-  bool keep_shape = true, symmetry = false, wireframe = true, cage = false, light = false, panels = true;
+  bool keep_shape = true, symmetry = false, wireframe = true, finest_wires = false, cage = false, light = false,
+       panels = true;
   bool cut = false;
   Eigen::Vector3d cut_point = Eigen::Vector3d::Zero(), cut_normal{0, -1, 0};
   std::string field;  // empty: clay

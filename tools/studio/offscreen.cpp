@@ -37,8 +37,7 @@ void Offscreen::resize(int width, int height, float scale) {
 }
 
 void Offscreen::frame() {
-  context_.make_current();
-  studio_->frame(input_, target_->framebuffer());
+  studio_->frame(input_);
   input_.keys.clear();
   input_.characters.clear();
   input_.wheel = 0;
@@ -121,7 +120,9 @@ void Offscreen::click(const std::string& name) {
   click(x / input_.scale, (place.y + 0.5F * place.height) / input_.scale);
 }
 
-sculpt::Picture Offscreen::picture() const {
+sculpt::Picture Offscreen::picture() {
+  context_.make_current();
+  studio_->draw(target_->framebuffer());
   sculpt::Picture picture;
   picture.width = target_->width();
   picture.height = target_->height();

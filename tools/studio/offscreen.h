@@ -42,8 +42,8 @@ class Offscreen {
   /// Without any wait: the next frames see another size.
   void resize(int width, int height, float scale);
 
-  /// What the last frame shows.
-  [[nodiscard]] sculpt::Picture picture() const;
+  /// What the last frame shows. Only this draws: other frames are laid out, and seen by nobody.
+  [[nodiscard]] sculpt::Picture picture();
   Studio& studio() { return *studio_; }
   Workshop& workshop() { return *workshop_; }
   const Snapshot& now() const { return *workshop_->latest(); }

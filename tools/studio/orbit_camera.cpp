@@ -67,7 +67,7 @@ void OrbitCamera::look_from(double yaw, double pitch) {
 void OrbitCamera::frame(const Box& box) {
   Pose goal = goal_.value_or(now_);
   goal.pivot = box.middle();
-  goal.distance = std::max(1e-9, 1.02 * box.radius() / k_tangent);
+  goal.distance = std::max(1e-9, 1.16 * box.radius() / k_tangent);
   goal_ = goal;
 }
 

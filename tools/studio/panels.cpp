@@ -271,6 +271,9 @@ void fields_panel(Desk& desk, const Perform& perform) {
   }
   ui.section("Lines");
   ui.toggle_row("Wires of cells", s.wireframe, desk.tooltip(Action::wireframe));
+  if (ui.toggle_row("Finest cells", s.finest_wires,
+                    "Wires of the refined cells too, not only of the control cells"))
+    desk.show();
   if (ui.toggle_row("Control cage", s.cage, desk.tooltip(Action::cage))) desk.show();
   ui.section("Cut away");
   bool cut = s.cut;

@@ -185,6 +185,7 @@ class Parser {
 }  // namespace
 
 Quantity shown(double value, const std::string& unit) {
+  if (unit == "%" && std::abs(value) < 1e-4) value = 0;  // of a body at rest only rounding is left
   const Prefixed* prefix = prefix_for(value, unit);
   if (prefix == nullptr) return {three_digits(value), unit};
   return {three_digits(value / prefix->factor), prefix->shown};

@@ -18,6 +18,7 @@ struct Shown {
   std::optional<std::array<double, 2>> range;  // else of the field's values
   std::optional<sculpt::ClipPlane> clip;
   bool cage = false;
+  bool finest_wires = false;  // else only those between control cells
 };
 
 struct HistoryEntry {

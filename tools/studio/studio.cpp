@@ -121,7 +121,8 @@ void Studio::take_keys(const Input& input) {
   }
 }
 
-void Studio::frame(const Input& input, unsigned framebuffer) {
+void Studio::frame(const Input& input) {
+  input_ = input;
   workshop_->frame_begins();
   ImGui::SetCurrentContext(context_);
   desk_.now = workshop_->latest();
@@ -167,10 +168,13 @@ void Studio::frame(const Input& input, unsigned framebuffer) {
   draw_dialogues(desk_, layout, perform_here, input.width, input.height);
   ui_->end_frame();
   ImGui::Render();
-
-  viewport_->draw(desk_, input, framebuffer);
-  renderer_->draw(*ImGui::GetDrawData());
   workshop_->frame_ends();
+}
+
+void Studio::draw(unsigned framebuffer) {
+  ImGui::SetCurrentContext(context_);
+  viewport_->draw(desk_, input_, framebuffer);
+  renderer_->draw(*ImGui::GetDrawData());
 }
 
 }  // namespace argil::studio

@@ -30,8 +30,10 @@ class Studio {
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
-  /// Draws into the framebuffer of this name.
-  void frame(const Input& input, unsigned framebuffer);
+  /// Takes what came in and lays the window out. It runs no command and waits for none.
+  void frame(const Input& input);
+  /// Draws what the last frame laid out into the framebuffer of this name.
+  void draw(unsigned framebuffer);
   void perform(Action action);
   bool quits() const { return desk_.quits; }
   /// Whether a picture of the view was asked for since the last call.
@@ -52,6 +54,7 @@ class Studio {
   std::unique_ptr<UiRenderer> renderer_;
   std::unique_ptr<Viewport> viewport_;
   Desk desk_;
+  Input input_;  // of the last frame
   bool control_ = false, shift_ = false, alt_ = false;
 };
 

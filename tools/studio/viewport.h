@@ -51,6 +51,8 @@ class Viewport {
   std::uint64_t layout_ = 0, version_ = 0;
   std::uint64_t framed_solid_ = 0;  // the one that the camera was last placed for
   std::shared_ptr<const sculpt::Scene> loaded_;
+  std::vector<float> drawn_;  // all that the picture in target_ depends on but for the scene
+  bool scene_changed_ = true;
 
   std::optional<Hit> hover_;
   Drag drag_ = Drag::none;

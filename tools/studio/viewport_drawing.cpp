@@ -22,8 +22,10 @@ constexpr double k_longest_arrow = 0.45;  // of the solid's radius, at the force
 void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) {
   const Snapshot& now = *desk.now;
   const Settings& settings = desk.settings;
-  if (!target_ || target_->width() != input.width || target_->height() != input.height)
+  if (!target_ || target_->width() != input.width || target_->height() != input.height) {
+    scene_changed_ = true;
     target_ = std::make_unique<view::SampledTarget>(*gl_, input.width, input.height, k_samples);
+  }
 
   if (now.version != version_ || layout_ == 0 || !loaded_ != !now.scene) {
     static const sculpt::Scene k_nothing;
@@ -37,58 +39,78 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
     } else if (now.scene != loaded_ || now.shade_again) {
       painter_.move(scene, place_, now.shade_again);
     }
+    scene_changed_ = scene_changed_ || layout_ != now.layout || now.scene != loaded_ || now.shade_again;
     layout_ = std::max<std::uint64_t>(1, now.layout);
     version_ = now.version;
     loaded_ = now.scene;
   }
-  painter_.set_look(settings.wireframe, settings.light);
+  painter_.set_look(settings.wireframe, settings.light, false);
 
   // The force, where it holds the solid.
   const Tokens& t = desk.ui->tokens();
+  std::vector<sculpt::SceneArrow> arrows;
+  view::Colour arrow_tint = colour_of(t.accent);
   if (now.stroke && now.stroke->force.norm() > 0) {
     const double most =
         now.tool.largest_force < 1e5 ? now.tool.largest_force : now.tool.strength * 0.5 * box_of(now).radius();
     const double share = now.stroke->force.norm() / std::max(1e-12, most);
     const double length = k_longest_arrow * place_.radius * 2 * std::min(1.0, std::sqrt(share));
     const Eigen::Vector3d tip = now.stroke->held + length * now.stroke->force.normalized();
-    painter_.set_arrows({{place_(now.stroke->held.cast<float>()), place_(tip.cast<float>())}},
-                        colour_of(now.stroke->at_limit ? t.warning : t.accent));
+    arrows.push_back({place_(now.stroke->held.cast<float>()), place_(tip.cast<float>())});
+    if (now.stroke->at_limit) arrow_tint = colour_of(t.warning);
   } else if (now.scene) {
-    std::vector<sculpt::SceneArrow> arrows;
     for (const sculpt::SceneArrow& arrow : now.scene->arrows)
       arrows.push_back({place_(arrow.from), place_(arrow.to)});
-    painter_.set_arrows(std::move(arrows), colour_of(t.accent));
   }
 
   // The brush, on the surface itself.
-  view::BrushMark brush;
+  view::BrushMark mark;
   const bool shows_brush =
       now.scene && desk.tool().kind != ToolKind::probe && desk.tool().kind != ToolKind::extrude;
   const double radius = drag_ == Drag::radius ? brush_now_ : now.tool.radius;
-  brush.radius = static_cast<float>(radius / place_.radius);
-  brush.falloff = now.tool.falloff == "linear" ? 1 : now.tool.falloff == "constant" ? 2 : 0;
+  mark.radius = static_cast<float>(radius / place_.radius);
+  mark.falloff = now.tool.falloff == "linear" ? 1 : now.tool.falloff == "constant" ? 2 : 0;
   Ink tint = inverts_ ? t.mark : t.accent;
   if (shows_brush && now.stroke) {
     if (now.stroke->at_limit) tint = t.warning;
-    brush.middles = {place_(now.stroke->held.cast<float>())};
+    mark.middles = {place_(now.stroke->held.cast<float>())};
   } else if (shows_brush && hover_) {
-    brush.middles = {place_(hover_->at.cast<float>())};
+    mark.middles = {place_(hover_->at.cast<float>())};
     if (settings.symmetry) {
       const Eigen::Vector3d other(-hover_->at.x(), hover_->at.y(), hover_->at.z());
-      brush.middles.push_back(place_(other.cast<float>()));
+      mark.middles.push_back(place_(other.cast<float>()));
     }
   }
-  brush.tint = colour_of(tint);
-  painter_.set_brush(std::move(brush));
+  mark.tint = colour_of(tint);
 
   Box box = box_of(now);
   if (now.stroke) {
     const Eigen::Vector3d reach = now.stroke->held + now.stroke->force.normalized() * place_.radius;
     if (reach.allFinite()) box = {box.low.cwiseMin(reach), box.high.cwiseMax(reach)};
   }
+  // Where nothing moved, the picture of before is taken again.
+  const view::Camera camera = camera_.camera(place_, box);
+  std::vector<float> drawn(camera.clip_from_world.data(), camera.clip_from_world.data() + 16);
+  for (const Eigen::Vector3f& middle : mark.middles) drawn.insert(drawn.end(), middle.data(), middle.data() + 3);
+  for (const sculpt::SceneArrow& arrow : arrows) {
+    drawn.insert(drawn.end(), arrow.from.data(), arrow.from.data() + 3);
+    drawn.insert(drawn.end(), arrow.to.data(), arrow.to.data() + 3);
+  }
+  for (const double value :
+       {static_cast<double>(mark.radius), static_cast<double>(mark.falloff), static_cast<double>(mark.tint.red),
+        static_cast<double>(arrow_tint.red), settings.wireframe ? 1.0 : 0.0, settings.light ? 1.0 : 0.0})
+    drawn.push_back(static_cast<float>(value));
+  if (!scene_changed_ && drawn == drawn_) {
+    target_->resolve(framebuffer);
+    return;
+  }
+  painter_.set_brush(std::move(mark));
+  painter_.set_arrows(std::move(arrows), arrow_tint);
+  drawn_ = std::move(drawn);
+  scene_changed_ = false;
   target_->bind();
   const view::Sampling sampling{input.width, input.height, 1, input.scale};
-  painter_.paint(camera_.camera(place_, box), sampling, 0, 0);
+  painter_.paint(camera, sampling, 0, 0);
   target_->resolve(framebuffer);
 }
 

@@ -129,7 +129,8 @@ void run_window(const WindowOptions& options) {
     const Clock::time_point now = Clock::now();
     input.seconds = std::clamp(std::chrono::duration<double>(now - last).count(), 1e-4, 0.25);
     last = now;
-    studio.frame(input, 0);
+    studio.frame(input);
+    studio.draw(0);
     input.keys.clear();
     input.characters.clear();
     input.dropped.clear();

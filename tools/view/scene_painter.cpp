@@ -101,7 +101,8 @@ void ScenePainter::move(const sculpt::Scene& scene, const Place& place, bool sha
   load_lines(scene, place, positions);
 }
 
-void ScenePainter::set_look(bool wireframe, bool light_theme) {
+void ScenePainter::set_look(bool wireframe, bool light_theme, bool hidden_pins) {
+  draws_hidden_pins_ = hidden_pins;
   theme_ = light_theme ? &k_light_theme : &k_dark_theme;
   draws_wire_ = wireframe;
 }
@@ -335,7 +336,7 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
   draw_line_sets(camera, sampling, k_hidden);
-  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
+  if (draws_hidden_pins_) draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
   draw_line_sets(camera, sampling, 1);

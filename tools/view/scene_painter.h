@@ -39,8 +39,8 @@ class ScenePainter {
   /// Arrows in place of the scene's, in picture coordinates.
   void set_arrows(std::vector<sculpt::SceneArrow> arrows, const Colour& tint);
   void set_brush(BrushMark brush) { brush_ = std::move(brush); }
-  /// What load took from its options.
-  void set_look(bool wireframe, bool light_theme);
+  /// What load took from its options; pins behind the surface are left out if so asked.
+  void set_look(bool wireframe, bool light_theme, bool hidden_pins = true);
   /// A picture of the inside in place of the surface: colours multiplied by opacity, top row first (volume_rays.h).
   void set_volume(const std::vector<float>& picture, int width, int height);
   /// Draws the part of the picture whose lower left sample is (x, y) into the bound target.
@@ -82,6 +82,7 @@ class ScenePainter {
   std::optional<Colour> arrow_tint_;
   SurfaceMesh mesh_;
   BrushMark brush_;
+  bool draws_hidden_pins_ = true;
   bool has_shadow_ = false, draws_surface_ = true, draws_wire_ = true;
   const Theme* theme_ = &k_dark_theme;
 };
