@@ -9,41 +9,13 @@
 #include <limits>
 
 #include "fem/parallel.h"
+#include "fem/surface_points.h"
 #include "subdiv/error.h"
 #include "subdiv/radial_edge.h"
 
 namespace argil::fem {
 
 namespace {
-
-/// A quadrature point of a bilinear quadrilateral: shape functions, position, and the outward normal times the area
-/// that belongs to it.
-struct SurfacePoint {
-  std::array<double, 4> shapes{};
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(), area_vector = Eigen::Vector3d::Zero();
-};
-
-/// Calls visit(quad, SurfacePoint) for the 2×2 Gauss points of every quadrilateral, in order.
-template <class Visit>
-void for_each_point(const SurfacePatch& patch, const Eigen::Matrix3Xd& nodes, const Visit& visit) {
-  const std::array<double, 2> gauss{0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-  for (const auto& quad : patch.quads)
-    for (const double u : gauss)
-      for (const double v : gauss) {
-        SurfacePoint point;
-        point.shapes = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
-        const std::array<double, 4> du{-(1 - v), 1 - v, v, -v}, dv{-(1 - u), -u, u, 1 - u};
-        Eigen::Vector3d along_u = Eigen::Vector3d::Zero(), along_v = Eigen::Vector3d::Zero();
-        for (std::size_t c = 0; c < 4; ++c) {
-          const Eigen::Vector3d x = nodes.col(static_cast<Eigen::Index>(quad[c]));
-          point.position += point.shapes[c] * x;
-          along_u += du[c] * x;
-          along_v += dv[c] * x;
-        }
-        point.area_vector = 0.25 * along_u.cross(along_v);
-        visit(quad, point);
-      }
-}
 
 /// Aᵀ of a force at one node, added to the control points' forces.
 void scatter(const subdiv::Stencils& rows, std::uint32_t node, const Eigen::Vector3d& force,
@@ -62,7 +34,7 @@ template <class Traction>
 Eigen::Matrix3Xd surface_forces(const Discretization& discretization, const SurfacePatch& patch,
                                 const Eigen::Matrix3Xd& nodes, const Traction& traction) {
   Eigen::Matrix3Xd result = no_forces(discretization);
-  for_each_point(patch, nodes, [&](const std::array<std::uint32_t, 4>& quad, const SurfacePoint& point) {
+  for_each_surface_point(patch, nodes, [&](const std::array<std::uint32_t, 4>& quad, const SurfacePoint& point) {
     const Eigen::Vector3d force = traction(point.area_vector);
     for (std::size_t c = 0; c < 4; ++c)
       scatter(discretization.nodes.rows, quad[c], point.shapes[c] * force, result);
@@ -141,7 +113,8 @@ SurfacePatch whole_surface(const Discretization& discretization, const subdiv::S
 
 double area(const SurfacePatch& patch, const Eigen::Matrix3Xd& nodes) {
   double sum = 0;
-  for_each_point(patch, nodes, [&](const auto&, const SurfacePoint& point) { sum += point.area_vector.norm(); });
+  for_each_surface_point(patch, nodes,
+                         [&](const auto&, const SurfacePoint& point) { sum += point.area_vector.norm(); });
   return sum;
 }
 
@@ -230,14 +203,14 @@ PointStencil brush_stencil(const Discretization& discretization, const SurfacePa
                 fmt::format("A brush needs a surface and a positive radius; found {} faces and radius {} m.",
                             patch.quads.size(), brush.radius));
   double nearest = std::numeric_limits<double>::infinity();
-  for_each_point(patch, nodes, [&](const auto&, const SurfacePoint& point) {
+  for_each_surface_point(patch, nodes, [&](const auto&, const SurfacePoint& point) {
     nearest = std::min(nearest, (point.position - brush.centre).norm());
   });
   const double radius = nearest < brush.radius ? brush.radius : 1.5 * nearest;
   std::vector<std::uint32_t> touched;
   std::vector<double> weights;
   double total = 0;
-  for_each_point(patch, nodes, [&](const std::array<std::uint32_t, 4>& quad, const SurfacePoint& point) {
+  for_each_surface_point(patch, nodes, [&](const std::array<std::uint32_t, 4>& quad, const SurfacePoint& point) {
     const double s = (point.position - brush.centre).norm() / radius;
     if (s >= 1) return;
     const double falloff = brush.falloff == Falloff::constant ? 1.0

@@ -12,7 +12,7 @@
 
 namespace argil::io {
 
-inline constexpr std::size_t k_max_session_line = 64UL * 1024;          // bytes
+inline constexpr std::size_t k_max_session_line = 4UL * 1024 * 1024;    // bytes; half an hour of a stroke
 inline constexpr std::size_t k_max_session_file = 64UL * 1024 * 1024;   // bytes
 inline constexpr std::size_t k_max_session_tokens = 2UL * 1000 * 1000;  // 64 bytes each
 inline constexpr std::string_view k_session_header = "argil 1";         // first line of every session

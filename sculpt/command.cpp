@@ -81,6 +81,8 @@ std::string signature(const Parameter& parameter) {
   std::string value;
   if (parameter.type == ArgumentType::expression) {
     value = "EXPRESSION";
+  } else if (!parameter.shown.empty()) {
+    value = parameter.shown;
   } else if (!parameter.choices.empty()) {
     value = joined(parameter.choices, "|");
   } else {
@@ -99,7 +101,7 @@ std::string signature(const Parameter& parameter) {
     value = parameter.name;
   else if (!parameter.positional)
     value = parameter.name + " " + value;
-  return parameter.required ? value : "[" + value + "]";
+  return parameter.required && parameter.unless.empty() ? value : "[" + value + "]";
 }
 
 }  // namespace
@@ -219,7 +221,7 @@ Arguments bind(const Command& command, const io::SessionLine& line) {
     arguments.set(parameter->name, std::move(argument));
   }
   for (const Parameter& parameter : command.parameters)
-    if (parameter.required && !arguments.has(parameter.name))
+    if (parameter.required && !arguments.has(parameter.name) && !arguments.has(parameter.unless))
       fail_at_end(line, fmt::format("{}: {} is missing ({}). Usage: {}", command.name, parameter.name,
                                     parameter.help, usage(command)));
   return arguments;
@@ -243,7 +245,7 @@ const std::vector<Group>& groups() {
       {"Refining", {&level_commands}},
       {"Material", {&material_commands}},
       {"Physics", {&simulation_commands}},
-      {"Force tools", {&tool_commands}},
+      {"Force tools", {&tool_commands, &stroke_commands}},
       {"History", {&history_commands}},
       {"Measuring, saving, pictures", {&output_commands, &render_commands, &sampling_commands}},
   };

@@ -34,6 +34,8 @@ struct Parameter {
   bool flag = false;                   // a name alone
   bool list = false;                   // any number of times `count` values (named numbers only)
   bool value_optional = false;         // a name alone, or with one number
+  std::string unless{};                // not required where this other argument is given
+  std::string shown{};                 // stands for its values in usage; empty: made from the rest
 };
 
 /// One bound argument.

@@ -285,6 +285,11 @@ std::uint64_t Document::state_hash() const {
     hash.add(s.spectral_radius);
     hash.add(static_cast<std::uint64_t>(s.substeps));
   }
+  if (s.tool.symmetry != 0) hash.add(fmt::format("symmetry {}", s.tool.symmetry));
+  if (s.tool.amount != initial.tool.amount || !s.tool.scales) {
+    hash.add(std::string_view(s.tool.scales ? "scale" : "value"));
+    hash.add(s.tool.amount);
+  }
   if (!s.guard_on) hash.add(std::string_view("guard off"));
   if (s.guard != fem::GuardState{}) {
     hash.add(std::string_view("guard"));

@@ -74,6 +74,9 @@ struct Tool {
   double strength = 50;        // [N/m]
   double largest_force = 1e6;  // [N]
   std::string falloff = "smooth";
+  char symmetry = 0;   // 'x', 'y' or 'z': its mirror image acts as well, in the middle of the rest shape; 0: none
+  double amount = 2;   // of paint tools: the value to reach, or the factor to multiply by
+  bool scales = true;  // the amount is a factor
 };
 
 /// As a session names it.

@@ -107,6 +107,25 @@ void Session::execute(const io::SessionLine& line) {
   trace(command.name);
 }
 
+const State& Session::begin_change() {
+  start_ = document_.state();
+  return start_;
+}
+
+void Session::abandon_change(std::size_t step_count) {
+  document_.assign(start_);
+  steps_.resize(std::min(step_count, steps_.size()));
+}
+
+void Session::adopt_line(const std::string& text) {
+  const io::SessionLine line = io::parse_session_line(text, "input", 1);
+  const Command& command = find_command(line);
+  (void)bind(command, line);
+  current_ = line;
+  journal(io::format_line(line.tokens));
+  trace(command.name);
+}
+
 std::string Session::place() const {
   return current_.tokens.empty() ? std::string{} : io::place_of(current_, current_.tokens[0]);
 }
@@ -177,10 +196,10 @@ void Session::progress(double fraction, const std::string& what) const {
   if (options_.progress) options_.progress(fraction, what);
 }
 
-void Session::step_done(const StepRecord& record, std::span<const fem::AnchorSpring> tool_springs) {
+void Session::step_done(const StepRecord& record, const fem::Loads& tool) {
   steps_.push_back(record);
   if (step_trace_.is_open())
-    step_trace_.write(step_trace_row(document_, tool_springs, record, steps_.size(), current_.number));
+    step_trace_.write(step_trace_row(document_, tool, record, steps_.size(), current_.number));
   trace("step");
   if (line_count_ > 0)
     progress(static_cast<double>(lines_) / static_cast<double>(line_count_), fmt::format("step {}", steps_.size()));

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -75,6 +74,15 @@ class Session {
   void run_line(const io::SessionLine& line);
   void run_line(const std::string& text);
 
+  // For what changes the document outside of a line, as a stroke of the mouse does.
+  /// What changes from here on is one change of the session; returns what is before it.
+  const State& begin_change();
+  /// Takes back what was assigned since, and its steps.
+  void abandon_change(std::size_t step_count);
+  /// Journals and traces a line whose change has been made, as if it had run now.
+  /// @throws Error (bad_input, not_found) if the line is none that could run.
+  void adopt_line(const std::string& text);
+
   Document& document() { return document_; }
   const Document& document() const { return document_; }
   /// The force of the last stroke where it held the body, until anything else changes: for pictures, not part of
@@ -98,8 +106,8 @@ class Session {
   /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
   /// (limit_exceeded).
   void require_steps(double count) const;
-  /// Called for every simulation step, with the springs of the tool that acted: counts and traces.
-  void step_done(const StepRecord& record, std::span<const fem::AnchorSpring> tool_springs = {});
+  /// Called for every simulation step, with the loads of the tool that acted: counts and traces.
+  void step_done(const StepRecord& record, const fem::Loads& tool = {});
   /// True once `until_step` is reached: long commands end early.
   bool stop_requested() const;
   void expectation_failed(const std::string& message);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "sculpt/commands/edit.h"
+#include "sculpt/force_tools/force_tool.h"
 
 namespace argil::sculpt {
 
@@ -54,14 +55,14 @@ const char* cause_of(fem::GuardFinding finding) {
 
 }  // namespace
 
-void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& tool_springs, double time_step) {
+void simulation_step(Session& session, const fem::Loads& tool, double time_step) {
   Document& document = session.document();
   const fem::Clock clock = session.options().clock;
   const double begin = clock ? clock() : 0;
   State next = document.state();
   auto motion = std::make_shared<fem::BodyState>(*next.motion);
   fem::Loads loads = document.loads();
-  loads.springs.insert(loads.springs.end(), tool_springs.begin(), tool_springs.end());
+  add_loads(loads, tool);
   const fem::StepOptions options = step_options(next);
   const bool was_frozen = next.guard.frozen;
   StepRecord record;
@@ -84,7 +85,7 @@ void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& too
   next.motion = motion;
   document.assign(std::move(next));
   record.ms = clock ? 1e3 * (clock() - begin) : 0;
-  session.step_done(record, tool_springs);
+  session.step_done(record, tool);
   if (frozen_now)
     session.print(
         fmt::format("the body is frozen at {:.6g} s: {} steps could not be saved from {}; undo, lower the "

@@ -1,8 +1,6 @@
 #pragma once
-// Steps of the simulation as commands take them: one step of the integrator with the document's loads and a tool's
-// springs, counted, traced and timed.
-
-#include <vector>
+// Steps of the simulation as commands take them: one step of the integrator with the document's loads and those of
+// a tool, counted, traced and timed.
 
 #include "sculpt/session.h"
 
@@ -12,7 +10,7 @@ namespace argil::sculpt {
 /// for, under its guard.
 /// @throws Error (not_converged) if the state would not be finite and the guard is off; the document is as before
 /// this step.
-void simulation_step(Session& session, const std::vector<fem::AnchorSpring>& tool_springs, double time_step);
+void simulation_step(Session& session, const fem::Loads& tool, double time_step);
 
 /// Says what the guard did in the steps from `first_step` on (a place in Session::steps()), if it did anything.
 void report_guard(const Session& session, std::size_t first_step);

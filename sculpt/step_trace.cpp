@@ -6,6 +6,7 @@
 
 #include "fem/measure/energy.h"
 #include "fem/measure/quality.h"
+#include "sculpt/force_tools/force_tool.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
 
@@ -39,7 +40,7 @@ struct Balance {
   fem::Wrench reaction, tool;
 };
 
-Balance balance_of(const Document& document, std::span<const fem::AnchorSpring> tool_springs) {
+Balance balance_of(const Document& document, const fem::Loads& tool) {
   const fem::System system = document.system();
   const fem::BodyState& motion = *document.state().motion;
   const Eigen::Matrix3Xd nodes = fem::nodes(system, motion.positions);
@@ -47,14 +48,15 @@ Balance balance_of(const Document& document, std::span<const fem::AnchorSpring> 
   Balance balance;
   balance.energy = fem::energy(system, motion);
   balance.springs =
-      fem::spring_energy(loads.springs, motion.positions) + fem::spring_energy(tool_springs, motion.positions);
+      fem::spring_energy(loads.springs, motion.positions) + fem::spring_energy(tool.springs, motion.positions);
   balance.loads = fem::load_potential(loads, document.rest(), motion.positions);
   balance.volume = fem::volume(document.discretization(), nodes);
   balance.min_volume_ratio = fem::min_volume_ratio(document.discretization().blocks, nodes);
   balance.momentum = fem::momentum(system, motion);
-  balance.tool = fem::wrench(tool_springs, motion.positions);
+  balance.tool = fem::wrench(tool.springs, motion.positions);
+  if (tool.forces.cols() > 0) balance.tool.force += fem::wrench(tool.forces, motion.positions).force;
   const fem::Wrench soft = fem::wrench(loads.springs, motion.positions);
-  loads.springs.insert(loads.springs.end(), tool_springs.begin(), tool_springs.end());
+  add_loads(loads, tool);
   balance.reaction = fem::wrench(fem::reactions(system, loads, motion.positions), motion.positions);
   balance.reaction.force += soft.force;
   balance.reaction.moment += soft.moment;
@@ -93,9 +95,9 @@ const std::string& step_trace_header() {
   return header;
 }
 
-std::string step_trace_row(const Document& document, std::span<const fem::AnchorSpring> tool_springs,
-                           const StepRecord& record, std::size_t number, int line) {
-  return row_of(balance_of(document, tool_springs), document.state().motion->time, record, number, line).values;
+std::string step_trace_row(const Document& document, const fem::Loads& tool, const StepRecord& record,
+                           std::size_t number, int line) {
+  return row_of(balance_of(document, tool), document.state().motion->time, record, number, line).values;
 }
 
 void StepTrace::open(const std::filesystem::path& path) {

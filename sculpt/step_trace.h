@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <span>
 #include <string>
 
 #include "sculpt/document.h"
@@ -22,8 +21,8 @@ struct StepRecord;
 
 /// One row, without the end of line. Numbers are the shortest that read back as the same double, in no locale.
 /// `number` counts steps from 1; `line` is that of the session. Cost: two evaluations of the model.
-[[nodiscard]] std::string step_trace_row(const Document& document, std::span<const fem::AnchorSpring> tool_springs,
-                                         const StepRecord& record, std::size_t number, int line);
+[[nodiscard]] std::string step_trace_row(const Document& document, const fem::Loads& tool, const StepRecord& record,
+                                         std::size_t number, int line);
 
 class StepTrace {
  public:

@@ -19,7 +19,8 @@ std::vector<Command> smoothing_commands();   // smooth project
 std::vector<Command> selection_commands();   // select sets
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> simulation_commands();  // pin gravity force integrator guard step solve commit
-std::vector<Command> tool_commands();        // tool stroke
+std::vector<Command> tool_commands();        // tool
+std::vector<Command> stroke_commands();      // stroke curve
 std::vector<Command> history_commands();     // undo redo
 std::vector<Command> output_commands();      // measure expect save
 std::vector<Command> render_commands();      // render

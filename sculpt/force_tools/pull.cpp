@@ -30,8 +30,9 @@ double distance_to_surface(const fem::SurfacePatch& patch, const Eigen::Matrix3X
 
 }  // namespace
 
-PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vector3d& at)
-    : largest_force_(tool.largest_force) {
+PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vector3d& at,
+                   const GripOptions& options)
+    : at_(at), largest_force_(tool.largest_force), invert_(options.invert) {
   const fem::Discretization& d = document.discretization();
   const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, document.positions());
   const fem::SurfacePatch surface = fem::whole_surface(d, document.refinement().solid());
@@ -54,18 +55,25 @@ Eigen::Vector3d PullGrip::held(const Eigen::Matrix3Xd& positions) const {
   return fem::held_point(grip_, positions);
 }
 
-fem::AnchorSpring PullGrip::spring(const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions) const {
+fem::AnchorSpring PullGrip::spring(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
   fem::AnchorSpring spring = grip_;
   const Eigen::Vector3d from = held(positions);
-  Eigen::Vector3d stretch = device + offset_ - from;
+  const Eigen::Vector3d device = invert_ ? Eigen::Vector3d(2 * at_ - pose.position) : pose.position;
+  Eigen::Vector3d stretch = pose.pressure * (device + offset_ - from);
   const double longest = largest_force_ / grip_.stiffness;
   if (stretch.norm() > longest) stretch *= longest / stretch.norm();
   spring.target = from + stretch;
   return spring;
 }
 
-Eigen::Vector3d PullGrip::force(const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions) const {
-  const fem::AnchorSpring now = spring(device, positions);
+fem::Loads PullGrip::loads(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
+  fem::Loads loads;
+  loads.springs.push_back(spring(pose, positions));
+  return loads;
+}
+
+Eigen::Vector3d PullGrip::force(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
+  const fem::AnchorSpring now = spring(pose, positions);
   return now.stiffness * (now.target - held(positions));
 }
 

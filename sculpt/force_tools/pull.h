@@ -3,27 +3,29 @@
 // the boundary within a radius of where the device took hold, weighted by falloff and area, so that the force is
 // spread over them by virtual work and never acts on one vertex.
 
-#include "fem/system.h"
-#include "sculpt/document.h"
+#include "sculpt/force_tools/force_tool.h"
 
 namespace argil::sculpt {
 
-class PullGrip {
+class PullGrip : public ForceTool {
  public:
-  /// Takes hold of the present surface around `at` [m]. @throws Error (bad_input) if nothing is within the radius.
-  PullGrip(const Document& document, const Tool& tool, const Eigen::Vector3d& at);
+  /// Takes hold of the present surface around `at` [m]. Inverted, the device's way counts backwards: drawn outwards
+  /// it pushes. @throws Error (bad_input) if nothing is within the radius.
+  PullGrip(const Document& document, const Tool& tool, const Eigen::Vector3d& at, const GripOptions& options = {});
 
-  /// The spring with the device at `device` [m] and the body at these control points; cut to the largest force.
-  [[nodiscard]] fem::AnchorSpring spring(const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions) const;
-  /// The force on the body [N].
-  [[nodiscard]] Eigen::Vector3d force(const Eigen::Vector3d& device, const Eigen::Matrix3Xd& positions) const;
-  [[nodiscard]] Eigen::Vector3d held(const Eigen::Matrix3Xd& positions) const;
-  double stiffness() const { return grip_.stiffness; }
+  fem::Loads loads(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const override;
+  Eigen::Vector3d held(const Eigen::Matrix3Xd& positions) const override;
+  Eigen::Vector3d force(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const override;
+  double stiffness() const override { return grip_.stiffness; }
+
+  /// The spring, cut to the largest force.
+  [[nodiscard]] fem::AnchorSpring spring(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const;
 
  private:
   fem::AnchorSpring grip_;
-  Eigen::Vector3d offset_;  // held point from device position when hold was taken: no jerk at the start
+  Eigen::Vector3d at_, offset_;  // held point from device position when hold was taken: no jerk at the start
   double largest_force_;
+  bool invert_;
 };
 
 }  // namespace argil::sculpt

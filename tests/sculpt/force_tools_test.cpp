@@ -34,7 +34,7 @@ TEST_P(Pull, ItsForceIsSpreadOverWhatItTouches) {
     tool.strength = 50;
     const Eigen::Vector3d at(0.15, 0.15, 0.2), device = at + Eigen::Vector3d(0.02, 0, 0.05);
     const PullGrip grip(session.document(), tool, at);
-    const fem::AnchorSpring spring = grip.spring(device, p);
+    const fem::AnchorSpring spring = grip.spring({device}, p);
     EXPECT_GE(spring.control_points.size(), 4U);
     EXPECT_TRUE(std::is_sorted(spring.control_points.begin(), spring.control_points.end()));
     EXPECT_NEAR(std::accumulate(spring.weights.begin(), spring.weights.end(), 0.0), 1, 1e-14);
@@ -43,9 +43,9 @@ TEST_P(Pull, ItsForceIsSpreadOverWhatItTouches) {
     Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, p.cols());
     fem::add_spring_forces({spring}, p, forces);
     EXPECT_LT((forces.rowwise().sum() - 50 * (device - at)).norm(), 1e-12);
-    EXPECT_LT((grip.force(device, p) - 50 * (device - at)).norm(), 1e-12);
+    EXPECT_LT((grip.force({device}, p) - 50 * (device - at)).norm(), 1e-12);
     // Nothing pulls before the device has moved, and the touched region is about it by symmetry.
-    EXPECT_LT(grip.force(at, p).norm(), 1e-12);
+    EXPECT_LT(grip.force({at}, p).norm(), 1e-12);
     EXPECT_NEAR(grip.held(p).x(), 0.15, 1e-12);
     EXPECT_NEAR(grip.held(p).y(), 0.15, 1e-12);
   }
@@ -59,8 +59,8 @@ TEST_P(Pull, TheLargestForceCutsIt) {
   const Eigen::Vector3d at(0.15, 0.15, 0.2);
   const PullGrip grip(session.document(), tool, at);
   const Eigen::Vector3d way(0.3, -0.1, 0.5);
-  EXPECT_LT((grip.force(at + way, session.document().positions()) - 2 * way.normalized()).norm(), 1e-12);
-  EXPECT_LT((grip.force(at + 0.01 * way, session.document().positions()) - way).norm(), 1e-12);
+  EXPECT_LT((grip.force({at + way}, session.document().positions()) - 2 * way.normalized()).norm(), 1e-12);
+  EXPECT_LT((grip.force({at + 0.01 * way}, session.document().positions()) - way).norm(), 1e-12);
 }
 
 TEST_P(Pull, ABrushFinerThanTheMeshStillTakesHold) {
