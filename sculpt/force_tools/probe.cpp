@@ -1,6 +1,7 @@
 #include "sculpt/force_tools/probe.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 

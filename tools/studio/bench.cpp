@@ -190,21 +190,50 @@ void Bench::save(const std::filesystem::path& file) {
   }
 }
 
+std::string tool_line(const sculpt::Tool& now, const sculpt::Tool& wanted) {
+  std::string line;
+  if (wanted.radius != now.radius) line += fmt::format(" radius {}", wanted.radius);
+  if (wanted.strength != now.strength) line += fmt::format(" strength {}", wanted.strength);
+  if (wanted.largest_force != now.largest_force) line += fmt::format(" limit {}", wanted.largest_force);
+  if (wanted.falloff != now.falloff) line += " falloff " + wanted.falloff;
+  if (wanted.symmetry != now.symmetry)
+    line += wanted.symmetry == 0 ? " symmetry none" : fmt::format(" symmetry {}", wanted.symmetry);
+  if (wanted.amount != now.amount || wanted.scales != now.scales)
+    line += fmt::format(" {} {}", wanted.scales ? "scale" : "value", wanted.amount);
+  return line.empty() && wanted.name == now.name ? std::string{} : "tool " + wanted.name + line;
+}
+
 void Bench::begin_stroke(const StrokeStart& start) {
   if (stroke_) return;
+  set_playing(false);
   played_last_ = false;
+  stroke_depth_ = session_->undo_depth();
+  stroke_from_.reset();
+  stroke_ticks_ = 0;
   try {
-    stroke_ = std::make_unique<StrokeLine>(*session_, start);
+    const std::string tool = tool_line(session_->document().state().tool, start.tool);
+    if (!tool.empty()) run_one(tool);
+    stroke_ = std::make_unique<sculpt::Stroke>(*session_, start.pose, start.options);
   } catch (const Error& error) {
     say(MessageKind::error, error.what());
+    drop_stroke();
   }
   changed_ = true;
 }
 
-void Bench::tick_stroke(const Eigen::Vector3d& device) {
+// Of a stroke that is not to be nothing stays, its choice of tool included.
+void Bench::drop_stroke() {
+  stroke_.reset();
+  const std::size_t depth = session_->undo_depth();
+  if (depth > stroke_depth_) run_one(fmt::format("undo {}", depth - stroke_depth_));
+  changed_ = whole_ = history_changed_ = shade_again_ = true;
+}
+
+void Bench::tick_stroke(const sculpt::StrokePose& device) {
   if (!stroke_) return;
+  ++stroke_ticks_;
   try {
-    stroke_->tick(device);
+    if (!stroke_->tick(device)) return;
   } catch (const Error& error) {
     say(MessageKind::error, error.what());
     cancel_stroke();
@@ -212,32 +241,52 @@ void Bench::tick_stroke(const Eigen::Vector3d& device) {
   changed_ = true;
 }
 
+StrokeNow Bench::stroke_now() const {
+  const sculpt::StrokeForce force = stroke_->force();
+  const sculpt::Tool& tool = session_->document().state().tool;
+  StrokeNow now{force.at, force.force};
+  now.at_limit = force.force.norm() >= 0.999 * tool.largest_force;
+  if (stroke_->reading()) {
+    now.felt = stroke_->reading()->stiffness;
+  } else if (stroke_from_) {
+    const double way = (force.at - *stroke_from_).norm();
+    if (way > 0.01 * tool.radius) now.felt = force.force.norm() / way;
+  }
+  return now;
+}
+
 void Bench::end_stroke(bool keep) {
   if (!stroke_) return;
-  const std::size_t depth = session_->undo_depth();
   try {
     if (on_line) on_line();
+    const std::size_t depth = session_->undo_depth();
+    if (stroke_ticks_ == 0) {  // pressed and let go at once
+      stroke_->cancel();
+      drop_stroke();
+      return;
+    }
     const std::string line = stroke_->finish();
     stroke_.reset();
-    if (!line.empty()) {
-      remember(line, depth, false);
-      stroke_times_.push_back(session_->document().state().motion->time);
-      if (keep) run_one("commit");
-    }
+    session_->adopt_line(line);
+    const double time = session_->document().state().motion->time;
+    remember(line, depth, false);
+    if (stroke_times_.empty() || stroke_times_.back() < time) stroke_times_.push_back(time);
+    const bool moved =
+        session_->undo_depth() > depth && session_->document().state().motion->velocities.squaredNorm() > 0;
+    if (keep && moved) run_one("commit");
   } catch (const Error& error) {
     stroke_.reset();
     say(MessageKind::warning, error.what());
   }
-  mark_change(depth, false);
-  changed_ = whole_ = shade_again_ = true;
+  mark_change(stroke_depth_, false);
+  changed_ = whole_ = history_changed_ = shade_again_ = true;
 }
 
 void Bench::cancel_stroke() {
   if (!stroke_) return;
   stroke_->cancel();
-  stroke_.reset();
+  drop_stroke();
   say(MessageKind::note, "the stroke was taken back");
-  changed_ = whole_ = shade_again_ = true;
 }
 
 void Bench::set_playing(bool on) {

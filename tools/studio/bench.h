@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "sculpt/session.h"
+#include "sculpt/stroke.h"
 #include "tools/studio/snapshot.h"
-#include "tools/studio/stroke_line.h"
 
 namespace argil::studio {
 
@@ -18,6 +18,14 @@ struct BenchOptions {
   sculpt::Limits limits;
   fem::Clock clock = nullptr;
 };
+
+struct StrokeStart {
+  sculpt::StrokePose pose;  // where it takes hold
+  sculpt::Tool tool;
+  sculpt::StrokeOptions options;
+};
+/// The line that makes `wanted` of a tool that is `now`; empty if they are the same.
+[[nodiscard]] std::string tool_line(const sculpt::Tool& now, const sculpt::Tool& wanted);
 
 /// What a new window begins with: a block of clay on its foot, ready to pull.
 [[nodiscard]] const std::vector<std::string>& block_lines();
@@ -38,8 +46,9 @@ class Bench {
   /// Writes the journal there, whole or not at all.
   void save(const std::filesystem::path& file);
 
+  /// The tool becomes the document's if it is not; that and the stroke are undone together.
   void begin_stroke(const StrokeStart& start);
-  void tick_stroke(const Eigen::Vector3d& device);
+  void tick_stroke(const sculpt::StrokePose& device);
   /// With `keep`, the new shape is the shape at rest from then on.
   void end_stroke(bool keep);
   void cancel_stroke();
@@ -77,7 +86,13 @@ class Bench {
   std::shared_ptr<const std::vector<HistoryEntry>> shown_history_;
   std::vector<Message> messages_;
   std::uint64_t message_count_ = 0;
-  std::unique_ptr<StrokeLine> stroke_;
+  void drop_stroke();
+  [[nodiscard]] StrokeNow stroke_now() const;
+
+  std::unique_ptr<sculpt::Stroke> stroke_;
+  std::size_t stroke_depth_ = 0;  // of the undo stack before it
+  long stroke_ticks_ = 0;
+  std::optional<Eigen::Vector3d> stroke_from_;
   std::vector<double> stroke_times_;
   bool playing_ = false, played_last_ = false;
   Shown shown_;

@@ -1,6 +1,7 @@
 // Of bench.h: what frames see of the session.
 
 #include <algorithm>
+#include <cmath>
 
 #include "sculpt/measures.h"
 #include "sculpt/scene.h"
@@ -99,6 +100,13 @@ void Bench::move_scene(Snapshot& next) {
 void Bench::read_document(Snapshot& next) {
   const sculpt::Document& document = session_->document();
   next.control_cells = document.solid().cell_count();
+  const Eigen::Matrix3Xd& rest = document.rest();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
+  for (const subdiv::VertexId v : document.solid().vertices()) {
+    low = low.cwiseMin(rest.col(static_cast<Eigen::Index>(v.index())));
+    high = high.cwiseMax(rest.col(static_cast<Eigen::Index>(v.index())));
+  }
+  next.rest_middle = 0.5 * (low + high);
   next.pinned = document.state().pins->control_points.size() + document.state().pins->nodes.size();
   for (std::size_t f = 0; f < next.materials.size(); ++f) {
     const Eigen::VectorXd& values = document.state().fields->values[f];
@@ -159,7 +167,10 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   next->solid_number = solids_;
   next->playing = playing_;
   next->stroke.reset();
-  if (stroke_) next->stroke = stroke_->now();
+  if (stroke_) {
+    if (!stroke_from_) stroke_from_ = stroke_->force().at;
+    next->stroke = stroke_now();
+  }
   const auto& steps = session_->steps();
   next->steps = static_cast<long>(steps.size());
   if (!steps.empty()) {

@@ -39,6 +39,12 @@ Layout lay_out(const Desk& desk, int width, int height) {
 
 namespace {
 
+// A hairline of the shelf stands between forces, paint, and the rest.
+bool parted(const ShelfTool& above, const ShelfTool& below) {
+  const auto group = [](ToolKind kind) { return kind == ToolKind::pin ? ToolKind::paint : kind; };
+  return group(above.kind) != group(below.kind);
+}
+
 std::string grouped(std::size_t number) {
   const std::string digits = fmt::format("{}", number);
   std::string result;
@@ -57,7 +63,7 @@ void draw_actions(Desk& desk, const Menu& menu, const Perform& perform) {
     const bool is_tool = action.action >= Action::tool_1 && action.action <= Action::tool_9;
     if (is_tool && number >= shelf_tools().size()) continue;
     using enum Action;
-    const bool marked = (action.action == symmetry && s.symmetry) ||
+    const bool marked = (action.action == symmetry && desk.brush.symmetry != 0) ||
                         (action.action == keep_shape && s.keep_shape) ||
                         (action.action == wireframe && s.wireframe) || (action.action == cage && s.cage) ||
                         (action.action == cut_away && s.cut) || (action.action == theme && s.light) ||
@@ -213,14 +219,14 @@ void draw_shelf(Desk& desk, const Layout& layout) {
   const auto& tools = shelf_tools();
   float height = 2 * margin;
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (i > 0 && std::strcmp(tools[i].group, tools[i - 1].group) != 0) height += line;
+    if (i > 0 && parted(tools[i - 1], tools[i])) height += line;
     height += i + 1 < tools.size() ? step : cell;
   }
   const Rect place{layout.shelf.x, layout.shelf.y, layout.shelf.width, std::min(height, layout.shelf.height)};
   ui.begin_panel("shelf", place, ui.tokens().panel, k_corner, true);
   float y = place.y + margin - ImGui::GetScrollY();
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (i > 0 && std::strcmp(tools[i].group, tools[i - 1].group) != 0) {
+    if (i > 0 && parted(tools[i - 1], tools[i])) {
       ui.list().AddRectFilled({place.x + ui.px(9), y + ui.px(1)}, {place.right() - ui.px(9), y + ui.px(2)},
                               ui.tokens().outline);
       y += line;
@@ -360,7 +366,7 @@ void draw_status(Desk& desk, const Layout& layout) {
   x += ui.px(8);
   const float bar = ui.px(70), height = ui.px(8), top = place.y + 0.5F * (place.height - height);
   ui.box(draw, {x, top, bar, height}, t.outline, 2);
-  const double share = std::clamp(force / std::max(1e-9, std::min(now.tool.largest_force, 1e3)), 0.0, 1.0);
+  const double share = std::clamp(force / std::max(1e-9, std::min(desk.brush.largest_force, 1e3)), 0.0, 1.0);
   if (share > 0.02)
     ui.box(draw, {x, top, bar * static_cast<float>(share), height}, now.stroke->at_limit ? t.warning : t.accent, 2);
   x += bar;
@@ -454,10 +460,10 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
       const char *strong, *rest;
     };
     static constexpr First k_first[] = {{icons::hand, "Drag on clay", "pulls it"},
-                                        {icons::twist, "Drag beside it", "turns the view"},
+                                        {icons::eye, "Drag beside it", "turns the view"},
                                         {icons::search, "Wheel", "comes nearer"},
                                         {icons::expand, "F", "sizes the brush"},
-                                        {icons::deflate, "Ctrl", "turns the tool round"}};
+                                        {icons::deflate, "Ctrl", "inverts the tool"}};
     const float width = ui.px(560), height = ui.px(118);
     const Rect place{middle - 0.5F * width, layout.timeline.y - height - ui.px(16), width, height};
     ui.begin_panel("card", place, 0, 0);
@@ -484,18 +490,9 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
 
   const ShelfTool& tool = desk.tool();
   std::vector<Hint> hints;
-  if (tool.kind == ToolKind::force)
-    hints = {{"Drag", " on clay: " + std::string(tool.label)}, {"drag beside", " orbits"}};
-  else if (tool.kind == ToolKind::extrude)
-    hints = {{"Drag", " a face outwards"}, {"drag beside", " orbits"}};
-  else if (tool.kind == ToolKind::probe)
-    hints = {{"Hover", " reads what is there"}, {"drag", " orbits"}};
-  else
-    hints = {{"Drag", " paints"}, {"drag beside", " orbits"}};
-  if (tool.kind != ToolKind::extrude && tool.kind != ToolKind::probe) {
-    hints.push_back({desk.bindings.word_of(Action::brush_radius), " radius"});
-    hints.push_back({"Ctrl", " inverts"});
-  }
+  hints = {{"Drag", std::string(" on clay ") + tool.verb}, {"drag beside", " orbits"}};
+  if (tool.kind != ToolKind::extrude) hints.push_back({desk.bindings.word_of(Action::brush_radius), " radius"});
+  if (tool.kind != ToolKind::extrude && tool.kind != ToolKind::probe) hints.push_back({"Ctrl", " inverts"});
   if (tool.kind == ToolKind::force) hints.push_back({"Shift", " smooths"});
   if (desk.settings.cut) hints.push_back({"Wheel", " moves the cut"});
   pill(hints, layout.timeline.y - ui.px(16));

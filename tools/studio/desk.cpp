@@ -11,27 +11,29 @@ namespace {
 const std::vector<ShelfTool>& known_tools() {
   using enum ToolKind;
   static const std::vector<ShelfTool> tools{
-      {force, "pull", "Pull", "Draws what it touches by a spring; towards the solid it pushes", icons::hand,
-       "force"},
-      {force, "grab", "Grab", "Takes what it touches along, as it is", icons::grab, "force"},
-      {force, "inflate", "Inflate", "Presses outwards from within; inverted it deflates", icons::expand, "force"},
-      {force, "curve", "Curve", "Lays a curve on the surface whose handles draw the solid", icons::branch, "force"},
-      {force, "twist", "Twist", "Turns what it touches", icons::twist, "force"},
-      {force, "pinch", "Pinch", "Draws what it touches together", icons::pinch, "force"},
-      {force, "smooth", "Smooth", "Calms what moves and evens what is bumpy", icons::drop, "force"},
-      {paint, "stiffness", "Paint stiffness", "Makes clay stiffer, inverted softer", icons::brush, "paint",
-       "young_modulus"},
-      {paint, "mass", "Paint mass", "Makes clay denser, inverted lighter", icons::balance, "paint", "density"},
-      {pin, "pin", "Pin", "Holds control points where they are, inverted lets go", icons::pin, "paint"},
-      {extrude, "extrude", "Extrude", "Draws a face of the control solid out into a new cell", icons::cube,
-       "solid"},
-      {probe, "probe", "Probe", "Reads what lies under the pointer and changes nothing", icons::probe, "probe"},
+      {force, "pull", "Pull", "pulls", "Draws what it touches by a spring; towards the solid it pushes",
+       icons::hand},
+      {force, "grab", "Grab", "takes along", "Takes what it touches along, as it is", icons::grab},
+      {force, "inflate", "Inflate", "inflates", "Presses outwards from within; inverted it deflates",
+       icons::expand},
+      {force, "twist", "Twist", "twists", "Turns what it touches; move the pointer sideways", icons::twist},
+      {force, "pinch", "Pinch", "pinches", "Draws what it touches together; inverted it spreads", icons::pinch},
+      {force, "smooth", "Smooth", "smooths", "Draws each point to the mean of its surroundings", icons::drop},
+      {paint, "paint_stiffness", "Paint stiffness", "stiffens", "Makes clay stiffer; inverted softer",
+       icons::brush},
+      {paint, "paint_mass", "Paint mass", "makes heavy", "Makes clay denser; inverted lighter", icons::balance},
+      {paint, "paint_damping", "Paint damping", "damps", "Makes motion die out faster; inverted slower",
+       icons::damping},
+      {pin, "pin_brush", "Pin", "pins", "Holds control points where they are; inverted lets go", icons::pin},
+      {extrude, "", "Extrude", "draws a face out", "Draws a face of the control solid out into a new cell",
+       icons::cube},
+      {probe, "probe", "Probe", "feels", "Touches without changing, and reads how stiff it feels", icons::probe},
   };
   return tools;
 }
 
 bool is_there(const ShelfTool& tool) {
-  if (tool.kind != ToolKind::force) return true;
+  if (*tool.name == '\0') return true;
   for (const sculpt::Command& command : sculpt::command_table())
     if (command.name == "tool") {
       const auto& choices = command.parameters.front().choices;
@@ -61,17 +63,15 @@ void Desk::take_tool(std::size_t index) {
   if (index >= shelf_tools().size()) return;
   settings.tool = index;
   settings.panel = Panel::tool;
-  const ShelfTool& taken = tool();
-  if (taken.kind == ToolKind::force && now->scene && now->tool.name != taken.name)
-    run(fmt::format("tool {}", taken.name));
+  if (*tool().name != '\0') brush.name = tool().name;
 }
 
-void Desk::set_brush(double radius, double strength) const {
-  if (!now->scene) return;
-  std::string line = fmt::format("tool {}", now->tool.name);
-  if (radius != now->tool.radius) line += fmt::format(" radius {}", radius);
-  if (strength != now->tool.strength) line += fmt::format(" strength {}", strength);
-  run(line);
+void Desk::follow_solid() {
+  if (now->solid_number == brush_solid) return;
+  brush_solid = now->solid_number;
+  const std::string name = brush.name;
+  brush = now->tool;
+  brush.name = name;
 }
 
 void Desk::show() const {
@@ -155,7 +155,7 @@ bool Desk::perform(Action action) {
       run("solve");
       return true;
     case symmetry:
-      settings.symmetry = !settings.symmetry;
+      brush.symmetry = brush.symmetry == 0 ? 'x' : '\0';
       return true;
     case keep_shape:
       settings.keep_shape = !settings.keep_shape;
@@ -184,7 +184,7 @@ bool Desk::perform(Action action) {
       return true;
     case brush_smaller:
     case brush_larger:
-      set_brush(now->tool.radius * (action == brush_larger ? 1.1 : 1 / 1.1), now->tool.strength);
+      brush.radius *= action == brush_larger ? 1.1 : 1 / 1.1;
       return true;
     case panels:
       settings.panels = !settings.panels;

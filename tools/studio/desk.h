@@ -12,16 +12,15 @@
 namespace argil::studio {
 
 /// What the pointer does on clay.
-enum class ToolKind { force, paint, pin, extrude, probe };
+enum class ToolKind { force, paint, pin, extrude, probe };  // a hairline of the shelf stands between two
 
 struct ShelfTool {
   ToolKind kind;
-  const char* name;  // of a force tool: as the command `tool` has it
+  const char* name;  // as the command `tool` has it; "": not a stroke
   const char* label;
+  const char* verb;  // what dragging on clay does
   const char* help;
   Icon icon;
-  const char* group;  // force, paint, solid, probe: a hairline stands between two groups
-  const char* field = "";
 };
 /// Those that this program can do, in the order of the shelf.
 [[nodiscard]] const std::vector<ShelfTool>& shelf_tools();
@@ -31,14 +30,12 @@ inline constexpr std::array<const char*, 5> k_panel_names{"Tool", "Material", "P
 
 struct Settings {
   std::size_t tool = 0;  // of the shelf
-  bool keep_shape = true, symmetry = false, wireframe = true, finest_wires = false, cage = false, light = false,
-       panels = true;
+  bool keep_shape = true, wireframe = true, finest_wires = false, cage = false, light = false, panels = true;
   bool cut = false;
   Eigen::Vector3d cut_point = Eigen::Vector3d::Zero(), cut_normal{0, -1, 0};
   std::string field;  // empty: clay
   bool fixed_range = false;
   double range_low = 0, range_high = 1;
-  double paint_strength = 0.5;  // share of the way to ten times (or a tenth) in one dab
   Panel panel = Panel::tool;
 };
 
@@ -58,12 +55,15 @@ struct Desk {
   Bindings bindings;
   Settings settings;
   std::shared_ptr<const Snapshot> now;
+  sculpt::Tool brush;  // of the next stroke; it becomes the document's when one begins
+  std::uint64_t brush_solid = 0;
   Reading reading;
   Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame
   std::string typed;                                                    // in the dialogue
   std::size_t chosen = 0;                                               // of what a search found
   bool retake_focus = false;
-  bool card = true;  // of the first minute
+  float panel_height = 0;  // that the panel wants
+  bool card = true;        // of the first minute
   bool quits = false, takes_picture = false;
   std::filesystem::path folder = ".";  // where files are opened and saved
   std::filesystem::path samples;
@@ -77,7 +77,8 @@ struct Desk {
   [[nodiscard]] const ShelfTool& tool() const { return shelf_tools()[settings.tool]; }
   void run(const std::string& line) const { workshop->run(line); }
   void take_tool(std::size_t index);
-  void set_brush(double radius, double strength) const;
+  /// Takes the brush of a solid that was begun or opened.
+  void follow_solid();
   /// Tells the workshop what of the settings concerns the scene.
   void show() const;
   /// True if it was done here; the viewport does those of the camera and the brush.

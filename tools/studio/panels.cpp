@@ -33,6 +33,11 @@ std::vector<std::string> choices_of(const char* command, const char* parameter) 
   return {};
 }
 
+double rounded(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::round(value / step) * step;
+}
+
 std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
 }
@@ -41,7 +46,7 @@ void force_plot(Desk& desk, float x, float width) {
   Ui& ui = *desk.ui;
   const Tokens& t = ui.tokens();
   ImDrawList& draw = ui.list();
-  const Rect place{x, ui.cursor_y(), width, ui.px(72)};
+  const Rect place{x, ui.cursor_y() + ui.px(14), width, ui.px(64)};
   draw.AddLine({place.x, place.bottom()}, {place.right(), place.bottom()}, t.outline, ui.px(1));
   const auto& values = desk.force_plot;
   float most = 0;
@@ -53,7 +58,7 @@ void force_plot(Desk& desk, float x, float width) {
                           place.bottom() - ui.px(2) - (place.height - ui.px(8)) * values[i] / most);
     draw.AddPolyline(points.data(), static_cast<int>(points.size()), t.accent, 0, ui.px(1.6F));
     const Quantity words = shown(most, "N");
-    ui.text(draw, ui.fonts().small, {place.x, place.y - ui.px(4), place.width, ui.px(16)}, t.faint,
+    ui.text(draw, ui.fonts().small, {place.x, place.y - ui.px(18), place.width, ui.px(16)}, t.faint,
             words.number + ' ' + words.unit, Side::right);
   } else {
     ui.text(draw, ui.fonts().small, {place.x, place.y, place.width, place.height}, t.faint,
@@ -61,7 +66,7 @@ void force_plot(Desk& desk, float x, float width) {
   }
   ui.note_control(ControlKind::reading, "Force over time", "The force of the tool during the last stroke", "N",
                   place);
-  ui.skip(80);
+  ui.skip(88);
 }
 
 void tool_panel(Desk& desk, float x, float width) {
@@ -74,51 +79,55 @@ void tool_panel(Desk& desk, float x, float width) {
     ui.note("A tool needs a solid. Begin with a block, or open a file.");
     return;
   }
-  if (tool.kind == ToolKind::probe || tool.kind == ToolKind::extrude) ui.note(tool.help);
-  if (tool.kind != ToolKind::probe && tool.kind != ToolKind::extrude) {
-    double radius = now.tool.radius, strength = now.tool.strength, limit = now.tool.largest_force;
-    if (ui.number_row(
-            "Radius", radius,
-            {.unit = "m",
-             .tooltip = "Of what the brush touches" + ("  ·  " + desk.bindings.word_of(Action::brush_radius)),
-             .low = 1e-3 * size,
-             .high = std::max(2 * size, radius),
-             .reset = 0.15 * 2 * size,
-             .logarithmic = true}))
-      desk.set_brush(radius, now.tool.strength);
+  sculpt::Tool& brush = desk.brush;
+  if (tool.kind == ToolKind::extrude) {
+    ui.note(tool.help);
+  } else {
+    ui.number_row("Radius", brush.radius,
+                  {.unit = "m",
+                   .tooltip = "Of what the brush touches  ·  " + desk.bindings.word_of(Action::brush_radius),
+                   .low = std::min(1e-3 * size, brush.radius),
+                   .high = std::max(2 * size, brush.radius),
+                   .reset = rounded(0.35 * size),
+                   .logarithmic = true});
     if (tool.kind == ToolKind::force) {
-      if (ui.number_row("Strength", strength,
-                        {.unit = "N/m",
-                         .tooltip = "Of the spring that the tool draws by" +
-                                    ("  ·  " + desk.bindings.word_of(Action::brush_strength)),
-                         .low = 1,
-                         .high = std::max(1e5, strength),
-                         .reset = 400,
+      ui.number_row(
+          "Strength", brush.strength,
+          {.unit = "N/m",
+           .tooltip = "Of the springs that the tool draws by  ·  " + desk.bindings.word_of(Action::brush_strength),
+           .low = std::min(1.0, brush.strength),
+           .high = std::max(1e5, brush.strength),
+           .reset = 400,
+           .logarithmic = true});
+      ui.number_row("Force limit", brush.largest_force,
+                    {.unit = "N",
+                     .tooltip = "The tool never applies more than this",
+                     .low = std::min(1e-2, brush.largest_force),
+                     .high = std::max(1e6, brush.largest_force),
+                     .reset = 60,
+                     .logarithmic = true});
+    }
+    if (tool.kind == ToolKind::paint) {
+      if (ui.number_row("Factor", brush.amount,
+                        {.unit = "",
+                         .tooltip = "What is painted is so many times as large; inverted, as small",
+                         .low = 1.01,
+                         .high = 1e3,
+                         .reset = 2,
                          .logarithmic = true}))
-        desk.set_brush(now.tool.radius, strength);
-      if (ui.number_row("Force limit", limit,
-                        {.unit = "N",
-                         .tooltip = "The tool never applies more than this",
-                         .low = 1e-2,
-                         .high = std::max(1e6, limit),
-                         .reset = 60,
-                         .logarithmic = true}))
-        desk.run(fmt::format("tool {} limit {}", now.tool.name, limit));
-    } else if (tool.kind == ToolKind::paint) {
-      ui.number_row("Amount", desk.settings.paint_strength,
-                    {.unit = "",
-                     .tooltip = "Powers of ten a dab: 0.3 doubles, 1 makes it tenfold",
-                     .low = 0.02,
-                     .high = 2,
-                     .reset = 0.5});
+        brush.scales = true;
     }
     static const std::vector<std::string> falloffs = choices_of("tool", "falloff");
-    std::size_t falloff = index_of(falloffs, now.tool.falloff);
+    static const std::vector<std::string> axes{"none", "x", "y", "z"};
+    std::size_t falloff = index_of(falloffs, brush.falloff);
     if (ui.choice_row("Falloff", falloffs, falloff, "How the brush weakens towards its rim"))
-      desk.run(fmt::format("tool {} falloff {}", now.tool.name, falloffs[falloff]));
-    if (tool.kind != ToolKind::force)
-      ui.toggle_row("Symmetry", desk.settings.symmetry, desk.tooltip(Action::symmetry));
-    else
+      brush.falloff = falloffs[falloff];
+    std::size_t axis = brush.symmetry == 0 ? 0 : index_of(axes, std::string(1, brush.symmetry));
+    if (ui.choice_row(
+            "Symmetry", axes, axis,
+            "Its mirror image along this axis acts as well  ·  " + desk.bindings.word_of(Action::symmetry)))
+      brush.symmetry = axis == 0 ? '\0' : axes[axis].front();
+    if (tool.kind == ToolKind::force)
       ui.toggle_row("Keep the shape", desk.settings.keep_shape, desk.tooltip(Action::keep_shape));
   }
   ui.section("Under the brush");
@@ -128,7 +137,8 @@ void tool_panel(Desk& desk, float x, float width) {
   ui.reading_row("Strain", under.there && under.strain >= 0 ? shown(100 * under.strain, "%").number : "—", "%",
                  "How far it is deformed there, as of the last rest");
   const Quantity felt = under.felt > 0 ? shown(under.felt, "N/m") : Quantity{"—", "N/m"};
-  ui.reading_row("Felt stiffness", felt.number, felt.unit, "Force of the last stroke over how far the clay went");
+  ui.reading_row("Felt stiffness", felt.number, felt.unit,
+                 "Force of the last stroke over how far the clay went, or what the probe read");
   ui.section("Force");
   force_plot(desk, x, width);
 }
@@ -361,7 +371,9 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
   }
   ui.end_panel();
 
-  const Rect body{place.x, place.y + tabs, place.width, place.height - tabs};
+  // As high as what it holds, as of the last frame.
+  const float high = std::min(place.height - tabs, desk.panel_height > 0 ? desk.panel_height : place.height - tabs);
+  const Rect body{place.x, place.y + tabs, place.width, high};
   ui.begin_panel("panel body", body, 0, 0, true);
   ui.list().AddRectFilled({body.x, body.y}, {body.right(), body.bottom()}, t.panel, ui.px(k_corner),
                           ImDrawFlags_RoundCornersBottom);
@@ -384,7 +396,8 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
       history_panel(desk, perform, left, width);
       break;
   }
-  ui.skip(12);
+  ui.skip(8);
+  desk.panel_height = ui.cursor_y() + ImGui::GetScrollY() - body.y;
   ui.end_panel();
 }
 

@@ -49,8 +49,8 @@ double value_of(Offscreen& window, const std::string& what) {
   if (what == "undo") return static_cast<double>(now.undo_depth);
   if (what == "redo") return static_cast<double>(now.redo_depth);
   if (what == "steps") return static_cast<double>(now.steps);
-  if (what == "radius") return now.tool.radius;
-  if (what == "strength") return now.tool.strength;
+  if (what == "radius") return window.studio().desk().brush.radius;
+  if (what == "strength") return window.studio().desk().brush.strength;
   if (what == "lines_in_frames") return static_cast<double>(window.workshop().lines_run_in_frames());
   return sculpt::measure(window.workshop().bench().session().document(), {.name = what});
 }

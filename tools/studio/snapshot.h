@@ -37,7 +37,7 @@ struct Message {
 
 struct StrokeNow {
   Eigen::Vector3d held, force;  // [m], [N]
-  double felt = 0;              // [N/m], force over how far it went
+  double felt = 0;              // [N/m]: force over how far it went, or what the probe reads
   bool at_limit = false;
 };
 
@@ -50,6 +50,8 @@ struct Snapshot {
   std::shared_ptr<const sculpt::Scene> scene;  // null: there is no solid
   std::vector<float> young_modulus, strain;    // per surface vertex, as of the last rest; may be empty
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  // of the surface [m]
+
+  Eigen::Vector3d rest_middle = Eigen::Vector3d::Zero();  // of the rest shape: what symmetry mirrors about
 
   // The document.
   sculpt::Tool tool;

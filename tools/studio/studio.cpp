@@ -1,6 +1,7 @@
 #include "tools/studio/studio.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -110,6 +111,11 @@ void Studio::take_keys(const Input& input) {
     if (search_key(desk_, event.key, [this](Action action) { perform(action); })) continue;
     const auto action = desk_.bindings.action_of({event.key, control_, shift_, alt_});
     if (!action) continue;
+    // A menu that is open goes at any key that means something; Esc means no more than that.
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+      ImGui::ClosePopupToLevel(0, true);
+      if (*action == Action::cancel) continue;
+    }
     // What is typed is text; but what closes, searches or lets go works from everywhere.
     const bool always = *action == Action::search || *action == Action::sheet_of_keys ||
                         *action == Action::forces_off || (*action == Action::cancel && !ui_->is_editing());
@@ -126,6 +132,7 @@ void Studio::frame(const Input& input) {
   workshop_->frame_begins();
   ImGui::SetCurrentContext(context_);
   desk_.now = workshop_->latest();
+  desk_.follow_solid();
   desk_.time += input.seconds;
   desk_.frame_ms += 0.1 * (1e3 * input.seconds - desk_.frame_ms);
   desk_.frames_a_second = desk_.frame_ms > 0 ? 1e3 / desk_.frame_ms : 0;

@@ -96,7 +96,9 @@ void Ui::end_frame() {
     return;
   }
   rested_ += io.DeltaTime;
-  if (rested_ < 0.45 || under->tooltip.empty()) return;
+  // Over an open menu only its own lines explain themselves.
+  const bool menu_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  if (rested_ < 0.45 || under->tooltip.empty() || (menu_open && under->place.y < px(k_menu_height))) return;
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
   const float most = px(300), margin = px(10);
   const ImVec2 size = fonts_.small->CalcTextSizeA(fonts_.small->FontSize, FLT_MAX, most, under->tooltip.c_str());

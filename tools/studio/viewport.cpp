@@ -10,10 +10,6 @@ namespace argil::studio {
 
 namespace {
 
-Eigen::Vector3d mirrored(const Eigen::Vector3d& p) {
-  return {-p.x(), p.y(), p.z()};
-}
-
 std::string place_words(const Eigen::Vector3d& p) {
   return fmt::format("{} {} {}", p.x(), p.y(), p.z());
 }
@@ -59,7 +55,7 @@ bool Viewport::perform(Desk& desk, Action action) {
     case Action::brush_strength:
       if (drag_ != Drag::none || !desk.now->scene) return true;
       drag_ = action == Action::brush_radius ? Drag::radius : Drag::strength;
-      brush_start_ = brush_now_ = action == Action::brush_radius ? desk.now->tool.radius : desk.now->tool.strength;
+      brush_start_ = brush_now_ = action == Action::brush_radius ? desk.brush.radius : desk.brush.strength;
       pressed_x_ = x_;
       pressed_y_ = y_;
       return true;
@@ -86,8 +82,7 @@ void Viewport::update_hover(Desk& desk, bool over_ui) {
   cannot_.clear();
   const Snapshot& now = *desk.now;
   const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
-  if (!now.scene || over_ui || !now.scene->draw_surface || (drag_ != Drag::none && drag_ != Drag::paint && !sizes))
-    return;
+  if (!now.scene || over_ui || !now.scene->draw_surface || (drag_ != Drag::none && !sizes)) return;
   const Ray ray = sizes ? camera_.ray(pressed_x_, pressed_y_) : camera_.ray(x_, y_);
   hover_ = pick(now.scene->surface, ray);
   Reading& reading = desk.reading;
@@ -124,54 +119,39 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
     drag_ = Drag::orbit;
     return;
   }
-  first_hit_ = *hover_;
   grip_ = device_ = hover_->at;
   grip_normal_ = hover_->normal;
   depth_ = 0;
-  drag_inverts_ = control;
   switch (desk.tool().kind) {
-    case ToolKind::force:
-      drag_ = Drag::stroke;
-      desk.force_plot.clear();
-      desk.workshop->begin_stroke({hover_->at, control, shift, input.pressure});
-      break;
-    case ToolKind::paint:
-    case ToolKind::pin:
-      drag_ = Drag::paint;
-      last_dab_.reset();
-      desk.workshop->post([](Bench& bench) { bench.set_playing(false); });
-      dab(desk, control);
-      break;
     case ToolKind::extrude:
       drag_ = Drag::extrude;
       break;
-    case ToolKind::probe:
-      drag_ = Drag::orbit;
+    default: {
+      drag_ = Drag::stroke;
+      desk.force_plot.clear();
+      StrokeStart start;
+      start.pose.position = hover_->at;
+      start.pose.pressure = input.pressure;
+      start.tool = desk.brush;
+      start.options.invert = control;
+      start.options.smoothing = shift && desk.tool().kind == ToolKind::force;
+      start.options.inside = hover_->cut;
+      desk.workshop->begin_stroke(start);
       break;
+    }
   }
 }
 
-void Viewport::dab(Desk& desk, bool invert) {
-  if (!hover_) return;
-  const double radius = desk.now->tool.radius;
-  if (last_dab_ && (*last_dab_ - hover_->at).norm() < 0.35 * radius) return;
-  const bool joins = last_dab_.has_value();
-  last_dab_ = hover_->at;
-  const ShelfTool& tool = desk.tool();
-  std::vector<std::string> lines;
-  const auto add = [&](const Eigen::Vector3d& at) {
-    if (tool.kind == ToolKind::pin) {
-      lines.push_back(fmt::format("select vertices sphere {} {} boundary", place_words(at), radius));
-      lines.emplace_back(invert ? "pin off" : "pin");
-    } else {
-      const double scale = std::pow(10.0, (invert ? -1 : 1) * desk.settings.paint_strength);
-      lines.push_back(fmt::format("paint {} scale {:.4g} at {} radius {} falloff {}", tool.field, scale,
-                                  place_words(at), radius, desk.now->tool.falloff));
-    }
-  };
-  add(hover_->at);
-  if (desk.settings.symmetry && std::abs(hover_->at.x()) > 1e-6 * radius) add(mirrored(hover_->at));
-  desk.workshop->post([lines, joins](Bench& bench) { bench.run_together(lines, joins); });
+// A force tool goes with the pointer through space, by the plane through where it took hold; a brush that lays
+// something on the clay goes over its surface.
+void Viewport::move_device(Desk& desk, double pressure) {
+  device_ = on_stroke_plane(x_, y_);
+  if (desk.tool().kind != ToolKind::force && desk.now->scene)
+    if (const auto hit = pick(desk.now->scene->surface, camera_.ray(x_, y_))) device_ = hit->at;
+  sculpt::StrokePose pose;
+  pose.position = device_;
+  pose.pressure = pressure;
+  desk.workshop->move_device(pose);
 }
 
 void Viewport::move_plane(Desk& desk, double distance) {
@@ -184,7 +164,7 @@ void Viewport::move_plane(Desk& desk, double distance) {
   desk.show();
 }
 
-void Viewport::drag(Desk& desk, const Input&, bool shift) {
+void Viewport::drag(Desk& desk, const Input& input, bool shift) {
   const double right = x_ - last_x_, up = last_y_ - y_;
   switch (drag_) {
     case Drag::orbit:
@@ -194,14 +174,10 @@ void Viewport::drag(Desk& desk, const Input&, bool shift) {
       camera_.pan(right, up);
       break;
     case Drag::stroke:
-      device_ = on_stroke_plane(x_, y_);
-      desk.workshop->move_device(device_);
+      move_device(desk, input.pressure);
       break;
     case Drag::extrude:
       device_ = on_stroke_plane(x_, y_);
-      break;
-    case Drag::paint:
-      dab(desk, drag_inverts_);
       break;
     case Drag::plane: {
       const Eigen::Vector3d& normal = desk.settings.cut_normal;
@@ -231,7 +207,7 @@ void Viewport::release(Desk& desk) {
   const Drag was = std::exchange(drag_, Drag::none);
   switch (was) {
     case Drag::stroke:
-      desk.workshop->end_stroke(desk.settings.keep_shape);
+      desk.workshop->end_stroke(desk.settings.keep_shape && desk.tool().kind == ToolKind::force);
       break;
     case Drag::extrude: {
       const double distance = (device_ - grip_).dot(grip_normal_);
@@ -245,10 +221,7 @@ void Viewport::release(Desk& desk) {
     case Drag::strength: {
       const double digits = std::pow(10.0, std::floor(std::log10(brush_now_)) - 2);
       const double value = std::round(brush_now_ / digits) * digits;
-      if (was == Drag::radius)
-        desk.set_brush(value, desk.now->tool.strength);
-      else
-        desk.set_brush(desk.now->tool.radius, value);
+      (was == Drag::radius ? desk.brush.radius : desk.brush.strength) = value;
       break;
     }
     default:
@@ -258,7 +231,6 @@ void Viewport::release(Desk& desk) {
 
 void Viewport::cancel(Desk& desk) {
   if (drag_ == Drag::stroke) desk.workshop->cancel_stroke();
-  if (drag_ == Drag::paint) desk.workshop->post([](Bench& bench) { bench.undo(); });
   drag_ = Drag::none;
 }
 
@@ -301,8 +273,7 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
   if (input.wheel != 0 && !over_ui) {
     if (drag_ == Drag::stroke) {
       depth_ += 12 * input.wheel * camera_.pixel_size(grip_);
-      device_ = on_stroke_plane(x_, y_);
-      desk.workshop->move_device(device_);
+      move_device(desk, input.pressure);
     } else if (desk.settings.cut && !control) {
       move_plane(desk, -0.02 * input.wheel * 2 * box_of(*desk.now).radius());
     } else {

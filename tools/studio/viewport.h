@@ -32,12 +32,12 @@ class Viewport {
   bool is_busy() const { return drag_ != Drag::none; }
 
  private:
-  enum class Drag { none, stroke, paint, extrude, orbit, pan, plane, radius, strength };
+  enum class Drag { none, stroke, extrude, orbit, pan, plane, radius, strength };
   void press(Desk& desk, const Input& input, bool control, bool shift);
   void drag(Desk& desk, const Input& input, bool shift);
   void release(Desk& desk);
   void cancel(Desk& desk);
-  void dab(Desk& desk, bool invert);
+  void move_device(Desk& desk, double pressure);
   void move_plane(Desk& desk, double distance);
   void update_hover(Desk& desk, bool over_ui);
   Eigen::Vector3d on_stroke_plane(double x, double y) const;
@@ -58,12 +58,10 @@ class Viewport {
   Drag drag_ = Drag::none;
   double x_ = 0, y_ = 0, last_x_ = 0, last_y_ = 0, pressed_x_ = 0, pressed_y_ = 0;
   bool left_ = false, middle_ = false, right_ = false;
-  bool inverts_ = false, drag_inverts_ = false;
+  bool inverts_ = false;
   // A stroke.
   Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_, grip_normal_ = grip_;
   double depth_ = 0;  // towards the eye, by the wheel
-  Hit first_hit_;
-  std::optional<Eigen::Vector3d> last_dab_;
   // The brush while it is sized.
   double brush_start_ = 0, brush_now_ = 0;
   std::string cannot_;  // why, at the pointer

@@ -65,19 +65,20 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
 
   // The brush, on the surface itself.
   view::BrushMark mark;
-  const bool shows_brush =
-      now.scene && desk.tool().kind != ToolKind::probe && desk.tool().kind != ToolKind::extrude;
-  const double radius = drag_ == Drag::radius ? brush_now_ : now.tool.radius;
+  const bool shows_brush = now.scene && desk.tool().kind != ToolKind::extrude;
+  const double radius = drag_ == Drag::radius ? brush_now_ : desk.brush.radius;
   mark.radius = static_cast<float>(radius / place_.radius);
-  mark.falloff = now.tool.falloff == "linear" ? 1 : now.tool.falloff == "constant" ? 2 : 0;
+  mark.falloff = desk.brush.falloff == "linear" ? 1 : desk.brush.falloff == "constant" ? 2 : 0;
   Ink tint = inverts_ ? t.mark : t.accent;
   if (shows_brush && now.stroke) {
     if (now.stroke->at_limit) tint = t.warning;
     mark.middles = {place_(now.stroke->held.cast<float>())};
   } else if (shows_brush && hover_) {
     mark.middles = {place_(hover_->at.cast<float>())};
-    if (settings.symmetry) {
-      const Eigen::Vector3d other(-hover_->at.x(), hover_->at.y(), hover_->at.z());
+    if (desk.brush.symmetry != 0) {
+      const int axis = desk.brush.symmetry - 'x';
+      Eigen::Vector3d other = hover_->at;
+      other[axis] = 2 * now.rest_middle[axis] - other[axis];
       mark.middles.push_back(place_(other.cast<float>()));
     }
   }
@@ -131,13 +132,16 @@ void Viewport::draw_marks(Desk& desk) {
                  {static_cast<float>(to.x()), static_cast<float>(to.y())}, colour, ui.px(width));
   };
 
-  if (desk.settings.symmetry && now.scene) {
+  if (desk.brush.symmetry != 0 && now.scene) {
+    const int axis = desk.brush.symmetry - 'x';
     const Box box = box_of(now);
-    const double reach = 0.08 * box.radius();
-    const Eigen::Vector3d a(0, box.low.y() - reach, box.low.z()), b(0, box.high.y() + reach, box.low.z()),
-        c(0, box.high.y() + reach, box.high.z() + reach), d(0, box.low.y() - reach, box.high.z() + reach);
-    const Eigen::Vector3d* corners[] = {&a, &b, &c, &d, &a};
-    for (int i = 0; i < 4; ++i) line(*corners[i], *corners[i + 1], faded(t.mark, 0.55F), 1);
+    const Eigen::Vector3d half = 0.58 * (box.high - box.low);
+    Eigen::Vector3d middle = box.middle();
+    middle[axis] = now.rest_middle[axis];
+    const Eigen::Vector3d u = Eigen::Vector3d::Unit((axis + 1) % 3) * half[(axis + 1) % 3],
+                          v = Eigen::Vector3d::Unit((axis + 2) % 3) * half[(axis + 2) % 3];
+    const Eigen::Vector3d corners[] = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], faded(t.mark, 0.55F), 1);
   }
   if (desk.settings.cut && now.scene) {
     const Settings& s = desk.settings;

@@ -48,13 +48,13 @@ void Workshop::run_together(std::vector<std::string> lines) {
   post([lines = std::move(lines)](Bench& bench) { bench.run_together(lines); });
 }
 
-void Workshop::move_device(const Eigen::Vector3d& at) {
-  post([this, at](Bench&) { device_goal_ = at; });
+void Workshop::move_device(const sculpt::StrokePose& pose) {
+  post([this, pose](Bench&) { device_goal_ = pose; });
 }
 
 void Workshop::begin_stroke(const StrokeStart& start) {
   post([this, start](Bench& bench) {
-    device_ = device_goal_ = start.at;
+    device_ = device_goal_ = start.pose;
     tick_rest_ = 0;
     bench.begin_stroke(start);
   });
@@ -82,7 +82,8 @@ void Workshop::do_ticks(long ticks, long most) {
   if (!bench_.is_stroking()) return;
   const double share = 1 - std::exp(-k_tick / k_follow);
   for (long i = 0; i < std::min(ticks, most) && bench_.is_stroking(); ++i) {
-    device_ += share * (device_goal_ - device_);
+    device_.position += share * (device_goal_.position - device_.position);
+    device_.pressure += share * (device_goal_.pressure - device_.pressure);
     bench_.tick_stroke(device_);
   }
   if (ticks > most) bench_.missed(ticks - most);

@@ -25,7 +25,7 @@ class Workshop {
   void run(std::string line);
   void run_together(std::vector<std::string> lines);
   /// Where the device is; the stroke follows it within some milliseconds.
-  void move_device(const Eigen::Vector3d& at);
+  void move_device(const sculpt::StrokePose& pose);
   void begin_stroke(const StrokeStart& start);
   void end_stroke(bool keep);
   void cancel_stroke();
@@ -61,7 +61,7 @@ class Workshop {
   std::atomic<std::thread::id> frame_thread_{};
   std::atomic<long> lines_in_frames_{0};
   // Of the simulation.
-  Eigen::Vector3d device_ = Eigen::Vector3d::Zero(), device_goal_ = device_;
+  sculpt::StrokePose device_, device_goal_;
   double tick_rest_ = 0, play_rest_ = 0;
   std::thread thread_;
 };
