@@ -25,7 +25,7 @@ const std::vector<std::string>& block_lines() {
                                               "set density 300",
                                               "set damping 4",
                                               "pin where z < 0.001",
-                                              "tool pull radius 0.15 strength 400 limit 60"};
+                                              "tool pull radius 0.15 strength 2000 limit 250"};
   return lines;
 }
 

@@ -21,9 +21,10 @@ const std::vector<ShelfTool>& known_tools() {
       {force, "smooth", "Smooth", "smooths", "Draws each point to the mean of its surroundings", icons::drop},
       {paint, "paint_stiffness", "Paint stiffness", "stiffens", "Makes clay stiffer; inverted softer",
        icons::brush},
-      {paint, "paint_mass", "Paint mass", "makes heavy", "Makes clay denser; inverted lighter", icons::balance},
+      {paint, "paint_mass", "Paint mass", "makes heavy", "Makes clay denser; inverted lighter", icons::balance,
+       "density"},
       {paint, "paint_damping", "Paint damping", "damps", "Makes motion die out faster; inverted slower",
-       icons::damping},
+       icons::damping, "damping"},
       {pin, "pin_brush", "Pin", "pins", "Holds control points where they are; inverted lets go", icons::pin},
       {extrude, "", "Extrude", "draws a face out", "Draws a face of the control solid out into a new cell",
        icons::cube},
@@ -64,6 +65,14 @@ void Desk::take_tool(std::size_t index) {
   settings.tool = index;
   settings.panel = Panel::tool;
   if (*tool().name != '\0') brush.name = tool().name;
+  // What is painted should be seen; clay comes back with the next tool.
+  const bool paints = *tool().field != '\0';
+  if (paints ? settings.field != tool().field : settings.field_of_tool) {
+    settings.field = tool().field;
+    settings.fixed_range = false;
+    show();
+  }
+  settings.field_of_tool = paints;
 }
 
 void Desk::follow_solid() {
@@ -170,6 +179,7 @@ bool Desk::perform(Action action) {
     case next_field: {
       const auto& fields = cycled_fields();
       const auto at = std::find(fields.begin(), fields.end(), settings.field);
+      settings.field_of_tool = false;
       settings.field = at == fields.end() || at + 1 == fields.end() ? fields.front() : *(at + 1);
       settings.fixed_range = false;
       show();

@@ -21,6 +21,7 @@ struct ShelfTool {
   const char* verb;  // what dragging on clay does
   const char* help;
   Icon icon;
+  const char* field = "";  // that it paints: shown while it is taken
 };
 /// Those that this program can do, in the order of the shelf.
 [[nodiscard]] const std::vector<ShelfTool>& shelf_tools();
@@ -31,7 +32,7 @@ inline constexpr std::array<const char*, 5> k_panel_names{"Tool", "Material", "P
 struct Settings {
   std::size_t tool = 0;  // of the shelf
   bool keep_shape = true, wireframe = true, finest_wires = false, cage = false, light = false, panels = true;
-  bool cut = false;
+  bool cut = false, field_of_tool = false;
   Eigen::Vector3d cut_point = Eigen::Vector3d::Zero(), cut_normal{0, -1, 0};
   std::string field;  // empty: clay
   bool fixed_range = false;

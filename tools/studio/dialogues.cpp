@@ -18,6 +18,7 @@ constexpr std::size_t k_shown = 9;
 Rect open_sheet(Desk& desk, const char* name, const Rect& place, int width, int height) {
   Ui& ui = *desk.ui;
   const Tokens& t = ui.tokens();
+  ui.come_to_front();
   // What lies behind is dimmed, and takes no clicks: one beside the sheet closes it.
   ui.begin_panel("behind", {0, 0, static_cast<float>(width), static_cast<float>(height)}, t.shade, 0);
   ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());

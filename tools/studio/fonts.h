@@ -16,7 +16,7 @@ namespace icons {
 inline constexpr Icon hand{"\xef\x89\x96", "P"}, grab{"\xef\x89\x95", "G"}, expand{"\xef\x82\xb2", "I"},
     deflate{"\xef\x84\x91", "D"}, branch{"\xef\x84\xa6", "C"}, twist{"\xef\x80\x9e", "T"},
     pinch{"\xef\x81\xa6", "N"}, drop{"\xef\x81\x83", "S"}, brush{"\xef\x87\xbc", "B"}, balance{"\xef\x89\x8e", "M"},
-    damping{"\xef\x83\x9e", "V"}, pin{"\xef\x82\x8d", "H"}, cube{"\xef\x86\xb2", "E"}, link{"\xef\x83\x81", "J"},
+    damping{"\xef\x83\xa4", "V"}, pin{"\xef\x82\x8d", "H"}, cube{"\xef\x86\xb2", "E"}, link{"\xef\x83\x81", "J"},
     scissors{"\xef\x83\x84", "X"}, grid{"\xef\x80\x89", "L"}, probe{"\xef\x81\x9b", "O"}, play{"\xef\x81\x8b", ">"},
     pause{"\xef\x81\x8c", "="}, step{"\xef\x81\x91", "|"}, rewind{"\xef\x81\x88", "<"}, search{"\xef\x80\x82", "?"},
     undo{"\xef\x83\xa2", "u"}, redo{"\xef\x80\x9e", "r"}, check{"\xef\x80\x8c", "v"}, cross{"\xef\x80\x8d", "x"},

@@ -97,14 +97,14 @@ void tool_panel(Desk& desk, float x, float width) {
            .tooltip = "Of the springs that the tool draws by  ·  " + desk.bindings.word_of(Action::brush_strength),
            .low = std::min(1.0, brush.strength),
            .high = std::max(1e5, brush.strength),
-           .reset = 400,
+           .reset = 2000,
            .logarithmic = true});
       ui.number_row("Force limit", brush.largest_force,
                     {.unit = "N",
                      .tooltip = "The tool never applies more than this",
                      .low = std::min(1e-2, brush.largest_force),
                      .high = std::max(1e6, brush.largest_force),
-                     .reset = 60,
+                     .reset = 250,
                      .logarithmic = true});
     }
     if (tool.kind == ToolKind::paint) {
@@ -397,7 +397,7 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
       break;
   }
   ui.skip(8);
-  desk.panel_height = ui.cursor_y() + ImGui::GetScrollY() - body.y;
+  desk.panel_height = ui.cursor_y() + ImGui::GetScrollY() - body.y + ui.px(4);
   ui.end_panel();
 }
 

@@ -29,6 +29,12 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+bool begins_a_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1))
+    if (at == 0 || std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0) return true;
+  return false;
+}
+
 /// −1: a word is nowhere.
 int rank_of(const std::vector<std::string>& words, const std::string& name, const std::string& help) {
   int rank = 0;
@@ -39,7 +45,7 @@ int rank_of(const std::vector<std::string>& words, const std::string& name, cons
       rank += 1;
     else if (name.find(word) != name.npos)
       rank += 3;
-    else if (help.find(word) != help.npos)
+    else if (begins_a_word(help, word))
       rank += 6;
     else
       return -1;

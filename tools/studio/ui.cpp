@@ -88,8 +88,8 @@ void Ui::end_frame() {
   const ImGuiIO& io = ImGui::GetIO();
   const Control* under = nullptr;
   if (io.WantCaptureMouse && !ImGui::IsMouseDown(0))
-    for (const Control& control : controls_)
-      if (control.place.contains(io.MousePos.x, io.MousePos.y)) under = &control;
+    for (std::size_t i = front_; i < controls_.size(); ++i)
+      if (controls_[i].place.contains(io.MousePos.x, io.MousePos.y)) under = &controls_[i];
   if (under == nullptr || under->name != rest_on_) {
     rest_on_ = under != nullptr ? under->name : "";
     rested_ = 0;

@@ -53,7 +53,12 @@ class Ui {
   float scale() const { return scale_; }
   float px(float size) const { return size * scale_; }
 
-  void begin_frame() { controls_.clear(); }
+  void begin_frame() {
+    controls_.clear();
+    front_ = 0;
+  }
+  /// What is drawn from here on lies before all else: only it explains itself.
+  void come_to_front() { front_ = controls_.size(); }
   /// The tooltip of what the pointer rests on, over everything.
   void end_frame();
   const std::vector<Control>& controls() const { return controls_; }
@@ -117,10 +122,12 @@ class Ui {
   Fonts fonts_;
   float scale_;
   std::vector<Control> controls_;
+  std::size_t front_ = 0;
   float x_ = 0, y_ = 0, width_ = 0;
   // The number that is typed or dragged.
   unsigned editing_ = 0, dragging_ = 0;
-  bool editing_began_ = false, edit_failed_ = false;
+  int editing_waits_ = 0;  // frames until the text field has the keyboard
+  bool edit_failed_ = false;
   double editing_since_ = 0;
   char edited_[96] = {};
   double drag_start_ = 0;

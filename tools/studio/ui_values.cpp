@@ -14,6 +14,8 @@ namespace argil::studio {
 
 namespace {
 
+constexpr int k_focus_frames = 4;  // Dear ImGui gives the keyboard a frame or two after it is asked to
+
 /// Where a value lies in its range, 0 … 1.
 double share_of(double value, const NumberStyle& style) {
   if (!(style.high > style.low)) return 0;
@@ -52,14 +54,15 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
     const float height = ImGui::GetFontSize() + 2 * px(5);
     ImGui::SetCursorScreenPos({place.x, place.y + 0.5F * (place.height - height)});
     ImGui::PushItemWidth(place.width);
-    if (editing_began_) ImGui::SetKeyboardFocusHere();
+    if (editing_waits_ == k_focus_frames) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputText("##text", edited_, sizeof edited_,
                                           ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopItemWidth();
     const bool twice = ImGui::GetTime() - editing_since_ < io.MouseDoubleClickTime && ImGui::IsMouseClicked(0) &&
                        place.contains(io.MousePos.x, io.MousePos.y);
-    const bool left = !editing_began_ && !ImGui::IsItemActive();
-    editing_began_ = false;
+    if (ImGui::IsItemActive()) editing_waits_ = 0;
+    const bool left = editing_waits_ == 0 && !ImGui::IsItemActive();
+    editing_waits_ = std::max(0, editing_waits_ - 1);
     if (twice) {
       value = style.reset;
       changed = true;
@@ -113,7 +116,7 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
       dragging_ = 0;
     } else if (hovered) {
       editing_ = id;
-      editing_began_ = true;
+      editing_waits_ = k_focus_frames;
       edit_failed_ = false;
       editing_since_ = ImGui::GetTime();
       std::strncpy(edited_, editable(value, style.unit).c_str(), sizeof edited_ - 1);

@@ -15,7 +15,7 @@ namespace argil::studio {
 namespace {
 
 constexpr int k_samples = 4;
-constexpr double k_longest_arrow = 0.45;  // of the solid's radius, at the force limit or where the force is large
+constexpr double k_longest_arrow = 0.3;  // of the solid's radius, at the force limit or where the force is large
 
 }  // namespace
 
