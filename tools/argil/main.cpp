@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
       "Argil sculpts solids by force: coarse solids, refined by subdivision, deformed as finite elements."};
   app.name("argil");
   app.set_version_flag("--version", "argil " ARGIL_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(
       "`argil help` lists the commands of a session, `argil help COMMAND` explains one.\n"
       "Exit status: 0 all well, 1 an `expect` failed, 2 bad input, 3 a bug of ours.");
@@ -279,6 +279,19 @@ int run(int argc, char** argv) {
   devices_app->add_flag("--json", handling.json);
   devices_app->callback([&] { status = devices_command(handling); });
 
+  StudioArguments sculpting;
+  CLI::App* studio_app =
+      app.add_subcommand("studio", "Opens the window to sculpt in (also without any subcommand)");
+  studio_app->add_option("file", sculpting.file, "a session (.argil) or a volume mesh; default: a new block");
+  studio_app->add_option("--script", sculpting.script,
+                         "drive the window off the screen by this text (docs/studio.md)");
+  studio_app->add_option("--out", sculpting.out, "folder for the journal, results, and pictures of a script")
+      ->capture_default_str();
+  studio_app->add_option("--max-cells", sculpting.limits.cells, "refuse to make more cells")->capture_default_str();
+  studio_app->add_option("--max-memory", sculpting.limits.memory, "bytes, estimated before allocating")
+      ->capture_default_str();
+  studio_app->callback([&] { status = studio(sculpting); });
+
   CLI::App* help_app = app.add_subcommand("help", "The commands of a session, or one of them");
   help_app->add_option("command", command, "a command of a session");
   bool document = false;
@@ -293,6 +306,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? k_well : k_bad_input;
   }
+  if (app.get_subcommands().empty()) return studio(sculpting);
   return status;
 }
 

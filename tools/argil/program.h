@@ -102,6 +102,14 @@ struct AtlasArguments {
 };
 int stability_atlas(const AtlasArguments& arguments);
 
+struct StudioArguments {
+  std::filesystem::path file;                // a session or a volume mesh; empty: a new block
+  std::filesystem::path script;              // runs off the screen; empty: a window
+  std::filesystem::path out = "out/studio";  // journal, results, pictures of a script
+  sculpt::Limits limits;
+};
+int studio(const StudioArguments& arguments);
+
 int help(const std::string& command);
 int help_document();
 

@@ -1,5 +1,6 @@
 #include "tools/view/gl_objects.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -96,6 +97,40 @@ Image::Image(const Gl& gl, int width, int height, const std::vector<std::uint8_t
     gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+}
+
+SampledTarget::SampledTarget(const Gl& gl, int width, int height, int samples)
+    : gl_(&gl), width_(width), height_(height) {
+  GLint most = 1;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
+  samples = std::min(samples, most);
+  gl.GenFramebuffers(1, &framebuffer_);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  const auto attach = [&](GLuint& buffer, GLenum format, GLenum place) {
+    gl.GenRenderbuffers(1, &buffer);
+    gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
+    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+  };
+  attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
+  attach(depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(ErrorCode::unsupported, "expected a drawing surface of " + std::to_string(width) + " x " +
+                                            std::to_string(height) + " pixels with " + std::to_string(samples) +
+                                            " samples, found that OpenGL gives none; make the window smaller");
+}
+
+SampledTarget::~SampledTarget() {
+  gl_->DeleteFramebuffers(1, &framebuffer_);
+  gl_->DeleteRenderbuffers(1, &colour_);
+  gl_->DeleteRenderbuffers(1, &depth_);
+}
+
+void SampledTarget::resolve(GLuint framebuffer) const {
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
 Target::Target(const Gl& gl, int width, int height, bool depth) : gl_(&gl), width_(width), height_(height) {

@@ -50,6 +50,13 @@ class VertexArray {
     static_assert(sizeof(Record) % 4 == 0);
     upload(records.data(), records.size(), sizeof(Record), attributes, divisor, indices);
   }
+  /// New contents for as many records as `set` was given; attributes and indices stay.
+  template <class Record>
+  void refill(const std::vector<Record>& records) {
+    gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_);
+    gl_->BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(records.size() * sizeof(Record)),
+                       records.data());
+  }
   void bind() const { gl_->BindVertexArray(array_); }
   GLsizei count() const { return count_; }  // indices if there are any, or records
 
@@ -80,6 +87,27 @@ class Image {
   GLuint texture_ = 0;
 };
 
+/// A target with several samples a pixel, which are averaged into another of the same size.
+class SampledTarget {
+ public:
+  /// `samples` is lowered to what the context has. @throws Error (unsupported) if it cannot hold it.
+  SampledTarget(const Gl& gl, int width, int height, int samples);
+  ~SampledTarget();
+  SampledTarget(const SampledTarget&) = delete;
+  SampledTarget& operator=(const SampledTarget&) = delete;
+
+  void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
+  /// Into the framebuffer of this name, 0 being the window's.
+  void resolve(GLuint framebuffer) const;
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  const Gl* gl_;
+  int width_, height_;
+  GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
+};
+
 /// An RGBA8 target of a texture, with a depth buffer if asked for.
 class Target {
  public:
@@ -94,6 +122,7 @@ class Target {
     gl_->ActiveTexture(unit);
     gl_->BindTexture(GL_TEXTURE_2D, texture_);
   }
+  GLuint framebuffer() const { return framebuffer_; }
   int width() const { return width_; }
   int height() const { return height_; }
   /// Lowest row first, of the lowest `rows` rows. The target must be bound.

@@ -1,5 +1,7 @@
 #include "tools/view/scene_painter.h"
 
+#include <algorithm>
+
 #include "tools/view/arrow_mesh.h"
 #include "tools/view/openness.h"
 #include "tools/view/shaders.h"
@@ -73,21 +75,47 @@ ScenePainter::ScenePainter(const Gl& gl)
 }
 
 void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options) {
-  theme_ = options.light_theme ? &k_light_theme : &k_dark_theme;
+  set_look(options.wireframe, options.light_theme);
   draws_surface_ = scene.draw_surface;
-  draws_wire_ = options.wireframe;
-  field_.reset();
-  if (!scene.surface.values.empty()) field_ = scene.legend;
 
   std::vector<Eigen::Vector3f> positions;
   for (const Eigen::Vector3f& position : scene.surface.positions) positions.push_back(place(position));
-  SurfaceMesh mesh = surface_mesh(scene.surface, positions);
-  if (draws_surface_) measure_openness(*gl_, depth_program_, mesh);
-  surface_.set(mesh.vertices, k_surface_attributes, 0, mesh.triangles);
-  has_shadow_ = options.contact_shadow && (draws_surface_ || scene.volume) && !mesh.triangles.empty();
-  if (has_shadow_) shadow_.prepare(mesh, surface_);
-  draws_surface_ = draws_surface_ && !mesh.triangles.empty();
+  mesh_ = surface_mesh(scene.surface, positions);
+  if (draws_surface_) measure_openness(*gl_, depth_program_, mesh_);
+  surface_.set(mesh_.vertices, k_surface_attributes, 0, mesh_.triangles);
+  has_shadow_ = options.contact_shadow && (draws_surface_ || scene.volume) && !mesh_.triangles.empty();
+  if (has_shadow_) shadow_.prepare(mesh_, surface_);
+  draws_surface_ = draws_surface_ && !mesh_.triangles.empty();
+  volume_.reset();
+  load_lines(scene, place, positions);
+}
 
+void ScenePainter::move(const sculpt::Scene& scene, const Place& place, bool shade_again) {
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(scene.surface.positions.size());
+  for (const Eigen::Vector3f& position : scene.surface.positions) positions.push_back(place(position));
+  argil::view::move(mesh_, scene.surface, positions);
+  if (draws_surface_ && shade_again) measure_openness(*gl_, depth_program_, mesh_);
+  if (!mesh_.vertices.empty()) surface_.refill(mesh_.vertices);
+  if (has_shadow_) shadow_.prepare(mesh_, surface_);
+  load_lines(scene, place, positions);
+}
+
+void ScenePainter::set_look(bool wireframe, bool light_theme, bool hidden_pins) {
+  draws_hidden_pins_ = hidden_pins;
+  theme_ = light_theme ? &k_light_theme : &k_dark_theme;
+  draws_wire_ = wireframe;
+}
+
+void ScenePainter::set_arrows(std::vector<sculpt::SceneArrow> arrows, const Colour& tint) {
+  arrow_ends_ = std::move(arrows);
+  arrow_tint_ = tint;
+}
+
+void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place,
+                              const std::vector<Eigen::Vector3f>& positions) {
+  field_.reset();
+  if (!scene.surface.values.empty()) field_ = scene.legend;
   std::vector<Line> lines;
   for (const auto& ends : scene.surface.wire) lines.push_back({positions[ends[0]], positions[ends[1]]});
   wire_.set(lines, k_line_attributes, 1);
@@ -102,7 +130,6 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
     line_sets_.push_back({set.look, std::make_unique<VertexArray>(*gl_)});
     line_sets_.back().lines->set(lines, k_line_attributes, 1);
   }
-  volume_.reset();
 
   const auto placed = [&](const std::vector<Eigen::Vector3f>& all) {
     std::vector<Eigen::Vector3f> result;
@@ -111,6 +138,7 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
   };
   cage_points_.set(placed(scene.cage_points), k_mark_attributes, 1);
   pins_.set(placed(scene.pins), k_mark_attributes, 1);
+  arrow_tint_.reset();
   arrow_ends_.clear();
   for (const sculpt::SceneArrow& arrow : scene.arrows) arrow_ends_.push_back({place(arrow.from), place(arrow.to)});
 }
@@ -231,13 +259,14 @@ void ScenePainter::draw_arrows(const Camera& camera, const Sampling& sampling) c
   gl.CullFace(GL_BACK);
   gl.DepthFunc(GL_GREATER);
   gl.DepthMask(GL_FALSE);
-  draw(theme_->arrow, 0, 0, k_hidden);
+  const Colour tint_of_arrows = arrow_tint_.value_or(theme_->arrow);
+  draw(tint_of_arrows, 0, 0, k_hidden);
   gl.DepthFunc(GL_LEQUAL);
   gl.DepthMask(GL_TRUE);
   gl.CullFace(GL_FRONT);
   draw(theme_->arrow_outline, 1.1F, 0, 1);
   gl.CullFace(GL_BACK);
-  draw(theme_->arrow, 0, 1, 1);
+  draw(tint_of_arrows, 0, 1, 1);
   gl.Disable(GL_CULL_FACE);
   gl.DepthMask(GL_FALSE);
 }
@@ -280,6 +309,16 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
       const std::string name = "field_colours[" + std::to_string(i) + "]";
       gl.Uniform3f(surface_program_.at(name.c_str()), c[0], c[1], c[2]);
     }
+    const auto brushes = static_cast<GLint>(std::min<std::size_t>(brush_.middles.size(), 2));
+    gl.Uniform1i(surface_program_.at("brush_count"), brushes);
+    for (GLint i = 0; i < brushes; ++i) {
+      const Eigen::Vector3f& middle = brush_.middles[static_cast<std::size_t>(i)];
+      const std::string name = "brush[" + std::to_string(i) + "]";
+      gl.Uniform4f(surface_program_.at(name.c_str()), middle.x(), middle.y(), middle.z(), brush_.radius);
+    }
+    set_colour(gl, surface_program_.at("brush_tint"), brush_.tint);
+    gl.Uniform2f(surface_program_.at("brush_look"), static_cast<float>(brush_.falloff),
+                 1.6F * sampling.pixel * static_cast<float>(sampling.factor));
     draw_surface(surface_program_, camera);
     gl.Disable(GL_POLYGON_OFFSET_FILL);
   }
@@ -297,7 +336,7 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
   draw_line_sets(camera, sampling, k_hidden);
-  draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
+  if (draws_hidden_pins_) draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
   draw_line_sets(camera, sampling, 1);

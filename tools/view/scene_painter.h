@@ -18,6 +18,14 @@ struct Sampling {
   float pixel = 1;            // lines and marks are as many pixels wide as at 1280 x 800 times this
 };
 
+/// Where a brush lies on the surface, in picture coordinates.
+struct BrushMark {
+  std::vector<Eigen::Vector3f> middles;  // up to two: a brush and its mirror image
+  float radius = 0;
+  Colour tint;
+  int falloff = 0;  // smooth, linear, constant
+};
+
 class ScenePainter {
  public:
   /// `gl` must outlive the painter, its context being current whenever a function is called.
@@ -25,6 +33,14 @@ class ScenePainter {
 
   /// Takes a scene in picture coordinates to the graphics card. Binds other targets.
   void load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options);
+  /// Takes a scene that differs from the one loaded only in places and values. With `shade_again` what is dark in
+  /// hollows is measured again, which takes as long as loading.
+  void move(const sculpt::Scene& scene, const Place& place, bool shade_again);
+  /// Arrows in place of the scene's, in picture coordinates.
+  void set_arrows(std::vector<sculpt::SceneArrow> arrows, const Colour& tint);
+  void set_brush(BrushMark brush) { brush_ = std::move(brush); }
+  /// What load took from its options; pins behind the surface are left out if so asked.
+  void set_look(bool wireframe, bool light_theme, bool hidden_pins = true);
   /// A picture of the inside in place of the surface: colours multiplied by opacity, top row first (volume_rays.h).
   void set_volume(const std::vector<float>& picture, int width, int height);
   /// Draws the part of the picture whose lower left sample is (x, y) into the bound target.
@@ -36,6 +52,7 @@ class ScenePainter {
 
  private:
   void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
+  void load_lines(const sculpt::Scene& scene, const Place& place, const std::vector<Eigen::Vector3f>& positions);
   void draw_surface(const Program& program, const Camera& camera) const;
   /// Takes a program whose shapes have sizes in pixels; returns samples a pixel of the theme.
   float use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const;
@@ -62,6 +79,10 @@ class ScenePainter {
   mutable VertexArray arrows_;  // their thickness depends on the camera
   std::vector<sculpt::SceneArrow> arrow_ends_;
   std::optional<sculpt::SceneLegend> field_;
+  std::optional<Colour> arrow_tint_;
+  SurfaceMesh mesh_;
+  BrushMark brush_;
+  bool draws_hidden_pins_ = true;
   bool has_shadow_ = false, draws_surface_ = true, draws_wire_ = true;
   const Theme* theme_ = &k_dark_theme;
 };

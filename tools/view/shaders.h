@@ -46,9 +46,11 @@ uniform mat3 view_from_world;
 uniform vec3 eye;
 out vec3 view_normal, to_eye, to_lamp;
 out float value, openness;
+out vec3 place;
 flat out uint cell;
 flat out uint cut;
 void main() {
+  place = position;
   view_normal = view_from_world * normal;
   to_lamp = vec3(-1.5, 2.3, 2.5) - view_from_world * position;
   to_eye = view_from_world * (eye - position);
@@ -70,7 +72,27 @@ flat in uint cut;
 uniform vec2 value_range;
 uniform bool has_field;
 uniform vec3 field_colours[11];
+in vec3 place;
+uniform int brush_count;
+uniform vec4 brush[2];      // middle and radius
+uniform vec4 brush_tint;
+uniform vec2 brush_look;    // falloff (0 smooth, 1 linear, 2 constant), width of the ring in samples
 out vec4 colour;
+
+// What a brush would touch: a ring where its radius ends on the surface, a tint that fades as its strength does.
+vec3 with_brushes(vec3 c) {
+  for (int i = 0; i < brush_count; ++i) {
+    float away = length(place - brush[i].xyz), sample_size = max(fwidth(away), 1e-9), t = away / brush[i].w;
+    float strength = brush_look.x < 0.5 ? (1.0 - t * t) * (1.0 - t * t) : brush_look.x < 1.5 ? 1.0 - t : 1.0;
+    if (t < 1.0) c = mix(c, brush_tint.rgb, 0.34 * strength * brush_tint.a);
+    float ring = clamp(0.5 * brush_look.y + 0.5 - abs(away - brush[i].w) / sample_size, 0.0, 1.0);
+    float rim = clamp(0.5 * brush_look.y + 1.6 - abs(away - brush[i].w) / sample_size, 0.0, 1.0);
+    c = mix(mix(c, vec3(0.04), 0.45 * rim), brush_tint.rgb, ring * brush_tint.a);
+    float dot_size = clamp(1.4 * brush_look.y + 0.5 - away / sample_size, 0.0, 1.0);
+    c = mix(c, brush_tint.rgb, dot_size * brush_tint.a);
+  }
+  return c;
+}
 
 vec3 ramp(float t, bool lighter) {
   vec3 deep = vec3(0.150, 0.066, 0.038), shade = vec3(0.400, 0.190, 0.105), clay = vec3(0.790, 0.470, 0.295),
@@ -105,6 +127,7 @@ void main() {
     float t = (value - value_range.x) / max(value_range.y - value_range.x, 1e-30);
     float light = mix(0.66, 1.14, smoothstep(0.05, 0.95, lit)) * mix(0.62, 1.0, openness);
     colour = vec4(field_colour(t) * light + (0.09 * gloss + 0.14 * rim + 0.035 * lit) * open, 1.0);
+    colour.rgb = with_brushes(colour.rgb);
     return;
   }
   float t = lit * mix(0.42, 1.0, openness) + 0.07 * max(dot(n, fill), 0.0) * open;
@@ -112,7 +135,7 @@ void main() {
   c += vec3(1.00, 0.90, 0.78) * 0.13 * gloss * open;
   c += mix(vec3(0.36, 0.20, 0.13), vec3(0.55, 0.42, 0.36), 0.5 + 0.5 * n.y) * 0.34 * rim * open;
   c += vec3(0.10, 0.050, 0.028) * max(-n.y, 0.0) * open;
-  colour = vec4(c, 1.0);
+  colour = vec4(with_brushes(c), 1.0);
 })";
 
 inline constexpr const char* k_id_fragment = R"(

@@ -77,52 +77,71 @@ Eigen::Vector3f corner_normal(const Eigen::Vector3f& a, const Eigen::Vector3f& b
 
 }  // namespace
 
-SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions) {
+void move(SurfaceMesh& mesh, const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions) {
   assert(positions.size() == surface.positions.size());
+  assert(mesh.vertex_from_corner.size() == surface.corners.size());
+  for (std::size_t c = 0; c < surface.corners.size(); ++c) {
+    SurfaceVertex& vertex = mesh.vertices[mesh.vertex_from_corner[c]];
+    const std::uint32_t v = surface.corners[c];
+    vertex.position = positions[v];
+    vertex.normal = Eigen::Vector3f::Zero();
+    vertex.value = surface.values.empty() ? 0.0F : surface.values[v];
+  }
+  std::size_t middles = mesh.vertices.size();
+  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
+    const std::size_t first = surface.offsets[face], size = surface.offsets[face + 1] - first;
+    if (size >= 3) --middles;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto at = [&](std::size_t k) { return positions[surface.corners[first + k % size]]; };
+      mesh.vertices[mesh.vertex_from_corner[first + i]].normal += corner_normal(at(i + size - 1), at(i), at(i + 1));
+    }
+  }
+  for (std::size_t i = 0; i < middles; ++i) mesh.vertices[i].normal = normalised(mesh.vertices[i].normal);
+
+  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
+    const std::size_t first = surface.offsets[face], size = surface.offsets[face + 1] - first;
+    if (size < 3) continue;
+    SurfaceVertex& middle = mesh.vertices[middles++];
+    middle.position = middle.normal = Eigen::Vector3f::Zero();
+    middle.value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const SurfaceVertex& corner = mesh.vertices[mesh.vertex_from_corner[first + i]];
+      middle.position += corner.position / static_cast<float>(size);
+      middle.normal += corner.normal;
+      middle.value += corner.value / static_cast<float>(size);
+    }
+    middle.normal = normalised(middle.normal);
+  }
+}
+
+SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions) {
   assert(surface.cell_from_face.size() + 1 == surface.offsets.size());
   SurfaceMesh mesh;
   subdiv::DisjointSets sets = join_corners(surface);
   std::vector<std::uint32_t> vertex_from_root(surface.corners.size(), k_none);
-  const auto vertex_of = [&](std::uint32_t corner) -> std::uint32_t {
+  mesh.vertex_from_corner.resize(surface.corners.size());
+  for (std::uint32_t corner = 0; corner < surface.corners.size(); ++corner) {
     std::uint32_t& vertex = vertex_from_root[sets.find(corner)];
     if (vertex == k_none) {
       vertex = static_cast<std::uint32_t>(mesh.vertices.size());
-      const std::uint32_t v = surface.corners[corner];
-      mesh.vertices.push_back({positions[v], Eigen::Vector3f::Zero()});
-      if (!surface.values.empty()) mesh.vertices.back().value = surface.values[v];
+      mesh.vertices.push_back({Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()});
     }
-    return vertex;
-  };
-
+    mesh.vertex_from_corner[corner] = vertex;
+  }
   for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
     const std::size_t first = surface.offsets[face], size = surface.offsets[face + 1] - first;
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto at = [&](std::size_t k) { return positions[surface.corners[first + k % size]]; };
-      mesh.vertices[vertex_of(static_cast<std::uint32_t>(first + i))].normal +=
-          corner_normal(at(i + size - 1), at(i), at(i + 1));
-    }
-  }
-  for (SurfaceVertex& vertex : mesh.vertices) vertex.normal = normalised(vertex.normal);
-
-  for (std::uint32_t face = 0; face + 1 < surface.offsets.size(); ++face) {
-    const auto first = static_cast<std::uint32_t>(surface.offsets[face]);
-    const auto size = static_cast<std::uint32_t>(surface.offsets[face + 1]) - first;
     if (size < 3) continue;
-    SurfaceVertex middle{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
     const auto middle_index = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (std::uint32_t i = 0; i < size; ++i) {
-      const std::uint32_t a = vertex_of(first + i), b = vertex_of(first + (i + 1) % size);
-      const SurfaceVertex& corner = mesh.vertices[a];
-      middle.position += corner.position / static_cast<float>(size);
-      middle.normal += corner.normal;
-      middle.value += corner.value / static_cast<float>(size);
-      for (const std::uint32_t v : {a, b, middle_index}) mesh.triangles.push_back(v);
-    }
-    middle.normal = normalised(middle.normal);
+    for (std::size_t i = 0; i < size; ++i)
+      for (const std::uint32_t v :
+           {mesh.vertex_from_corner[first + i], mesh.vertex_from_corner[first + (i + 1) % size], middle_index})
+        mesh.triangles.push_back(v);
+    SurfaceVertex middle{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
     middle.cell = surface.cell_from_face[face];
     middle.cut = is_cut(surface, face) ? 1 : 0;
     mesh.vertices.push_back(middle);
   }
+  move(mesh, surface, positions);
   return mesh;
 }
 

@@ -19,7 +19,8 @@ struct SurfaceVertex {
 
 struct SurfaceMesh {
   std::vector<SurfaceVertex> vertices;
-  std::vector<std::uint32_t> triangles;  // 3 each; the last is always a face's middle
+  std::vector<std::uint32_t> triangles;           // 3 each; the last is always a face's middle
+  std::vector<std::uint32_t> vertex_from_corner;  // of the surface's corners
 };
 
 /// `positions`: of the surface's vertices in the coordinates of the picture. Corners of a vertex share a normal
@@ -27,5 +28,9 @@ struct SurfaceMesh {
 /// are weighted by angle and pointed by the faces' corners. Cost O(corners log corners).
 [[nodiscard]] SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface,
                                        const std::vector<Eigen::Vector3f>& positions);
+
+/// Takes the mesh to where the vertices of the surface that it was made of are now, with its values. Which corners
+/// share a normal stays as it was. Cost O(corners).
+void move(SurfaceMesh& mesh, const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions);
 
 }  // namespace argil::view

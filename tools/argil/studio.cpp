@@ -1,0 +1,53 @@
+#include <cstdio>
+#include <cstdlib>
+
+#include <chrono>
+
+#include "io/file_bytes.h"
+#include "subdiv/error.h"
+#include "tools/argil/program.h"
+#include "tools/studio/script.h"
+#include "tools/studio/window.h"
+#include "tools/view/offscreen_renderer.h"
+
+namespace argil::tools {
+
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::filesystem::path settings_folder() {
+  if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder != nullptr && *folder != '\0')
+    return std::filesystem::path(folder) / "argil";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return std::filesystem::path(home) / ".config" / "argil";
+  return {};
+}
+
+}  // namespace
+
+int studio(const StudioArguments& arguments) {
+  if (!arguments.file.empty() && !std::filesystem::is_regular_file(arguments.file))
+    throw Error(ErrorCode::bad_input, "expected a session or a mesh to open, found no file '" +
+                                          arguments.file.string() + "'; leave it out for a new block");
+  argil::studio::BenchOptions bench;
+  bench.out = arguments.out;
+  bench.limits = arguments.limits;
+  bench.clock = seconds;
+  if (arguments.script.empty()) {
+    argil::studio::run_window(
+        {bench, arguments.file, settings_folder().empty() ? settings_folder() : settings_folder() / "keys"});
+    return k_well;
+  }
+  const std::string script = io::read_file(arguments.script);
+  argil::studio::OffscreenOptions options;
+  options.bench = bench;
+  argil::studio::Offscreen window(options, arguments.file);
+  const auto result = argil::studio::run_script(script, arguments.script.string(), window, arguments.out,
+                                                [](const std::string& line) { std::printf("%s\n", line.c_str()); });
+  return result.failed == 0 ? k_well : k_expectation_failed;
+}
+
+}  // namespace argil::tools

@@ -1,0 +1,107 @@
+#pragma once
+// The session on the work bench: runs lines, strokes and steps, keeps what the window shows of them, and makes
+// snapshots. It belongs to one thread at a time, the simulation's; workshop.h is how frames talk to it.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "sculpt/session.h"
+#include "sculpt/stroke.h"
+#include "tools/studio/snapshot.h"
+
+namespace argil::studio {
+
+struct BenchOptions {
+  std::filesystem::path out = "out/studio";  // journal and results
+  sculpt::Renderer* renderer = nullptr;      // for the command `render`; may be null
+  sculpt::Limits limits;
+  fem::Clock clock = nullptr;
+};
+
+struct StrokeStart {
+  sculpt::StrokePose pose;  // where it takes hold
+  sculpt::Tool tool;
+  sculpt::StrokeOptions options;
+};
+/// The line that makes `wanted` of a tool that is `now`; empty if they are the same.
+[[nodiscard]] std::string tool_line(const sculpt::Tool& now, const sculpt::Tool& wanted);
+
+/// What a new window begins with: a block of clay on its foot, ready to pull.
+[[nodiscard]] const std::vector<std::string>& block_lines();
+
+class Bench {
+ public:
+  explicit Bench(BenchOptions options);
+  ~Bench();
+
+  /// Runs a line of the session. What it says, and an Error, become messages. Returns whether it ran.
+  bool run(const std::string& line);
+  /// Lines that are undone together; with `joins_last`, together with what was done last.
+  bool run_together(const std::vector<std::string>& lines, bool joins_last = false);
+  void undo();
+  void redo();
+  /// A session file begins a new journal; a volume mesh is opened by a line. Errors become messages.
+  void open(const std::filesystem::path& file);
+  /// Writes the journal there, whole or not at all.
+  void save(const std::filesystem::path& file);
+
+  /// The tool becomes the document's if it is not; that and the stroke are undone together.
+  void begin_stroke(const StrokeStart& start);
+  void tick_stroke(const sculpt::StrokePose& device);
+  /// With `keep`, the new shape is the shape at rest from then on.
+  void end_stroke(bool keep);
+  void cancel_stroke();
+  bool is_stroking() const { return stroke_ != nullptr; }
+
+  void set_playing(bool on);
+  bool is_playing() const { return playing_; }
+  void play_step();
+
+  void show(const Shown& shown);
+  const Shown& shown() const { return shown_; }
+  void say(MessageKind kind, const std::string& text);
+  void missed(long ticks) { missed_ticks_ += ticks; }
+
+  sculpt::Session& session() { return *session_; }
+  const sculpt::Session& session() const { return *session_; }
+  bool has_changed() const { return changed_; }
+  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
+  /// Called for each line that runs; for tests.
+  std::function<void()> on_line;
+
+ private:
+  void begin_session(const std::filesystem::path& read_root);
+  bool run_one(const std::string& line);
+  void mark_change(std::size_t depth_before, bool joins_last);
+  void remember(const std::string& line, std::size_t depth_before, bool repeats);
+  void draw_scene(Snapshot& next);
+  void move_scene(Snapshot& next);
+  void read_document(Snapshot& next);
+
+  BenchOptions options_;
+  std::unique_ptr<sculpt::Session> session_;
+  std::vector<std::size_t> marks_;  // depths of the undo stack at which an action of the user ended
+  std::vector<HistoryEntry> history_;
+  std::shared_ptr<const std::vector<HistoryEntry>> shown_history_;
+  std::vector<Message> messages_;
+  std::uint64_t message_count_ = 0;
+  void drop_stroke();
+  [[nodiscard]] StrokeNow stroke_now() const;
+
+  std::unique_ptr<sculpt::Stroke> stroke_;
+  std::size_t stroke_depth_ = 0;  // of the undo stack before it
+  long stroke_ticks_ = 0;
+  std::optional<Eigen::Vector3d> stroke_from_;
+  std::vector<double> stroke_times_;
+  bool playing_ = false, played_last_ = false;
+  Shown shown_;
+  std::filesystem::path file_;
+  std::size_t lines_ = 0, saved_lines_ = 0;
+  std::uint64_t solids_ = 0;
+  long missed_ticks_ = 0;
+  bool changed_ = true, whole_ = true, history_changed_ = true, shade_again_ = true;
+  std::shared_ptr<const Snapshot> last_;
+};
+
+}  // namespace argil::studio

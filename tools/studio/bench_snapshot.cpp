@@ -1,0 +1,190 @@
+// Of bench.h: what frames see of the session.
+
+#include <algorithm>
+#include <cmath>
+
+#include "sculpt/measures.h"
+#include "sculpt/scene.h"
+#include "sculpt/shown_fields.h"
+#include "subdiv/error.h"
+#include "tools/studio/bench.h"
+
+namespace argil::studio {
+
+namespace {
+
+bool same_faces(const sculpt::SceneSurface& a, const sculpt::SceneSurface& b) {
+  return a.offsets == b.offsets && a.corners == b.corners && a.cut_faces == b.cut_faces &&
+         a.cell_from_face == b.cell_from_face && a.sharp_edges == b.sharp_edges &&
+         a.vertex_from_surface == b.vertex_from_surface;
+}
+
+void bound(Snapshot& next) {
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(HUGE_VALF), high = -low;
+  for (const Eigen::Vector3f& position : next.scene->surface.positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  next.low = low.cast<double>();
+  next.high = high.cast<double>();
+}
+
+std::vector<float> on_surface(const sculpt::SceneSurface& surface, const Eigen::VectorXd& values) {
+  std::vector<float> result;
+  result.reserve(surface.vertex_from_surface.size());
+  for (const std::uint32_t v : surface.vertex_from_surface)
+    result.push_back(static_cast<float>(values[static_cast<Eigen::Index>(v)]));
+  return result;
+}
+
+}  // namespace
+
+void Bench::draw_scene(Snapshot& next) {
+  const sculpt::Document& document = session_->document();
+  sculpt::PictureRequest request;
+  request.field = shown_.field;
+  request.range = shown_.range;
+  request.clip = shown_.clip;
+  request.cage = shown_.cage;
+  request.control_wire = !shown_.finest_wires;
+  std::shared_ptr<sculpt::Scene> scene;
+  try {
+    scene = std::make_shared<sculpt::Scene>(sculpt::make_scene(document, request));
+  } catch (const Error& error) {
+    // A field that cannot be shown of this solid; it is still there as clay.
+    say(MessageKind::warning, error.what());
+    shown_.field.clear();
+    request.field.clear();
+    request.marks = false;
+    scene = std::make_shared<sculpt::Scene>(sculpt::make_scene(document, request));
+  }
+  const bool same = last_ && last_->scene && same_faces(last_->scene->surface, scene->surface);
+  next.layout = last_ ? last_->layout + (same ? 0 : 1) : 1;
+  next.scene = scene;
+  bound(next);
+  next.young_modulus = on_surface(scene->surface, (*document.state().fields)[sculpt::FieldName::young_modulus]);
+  try {
+    next.strain = on_surface(scene->surface, sculpt::shown_field(document, "strain").values);
+  } catch (const Error&) {
+    next.strain.clear();  // a solid that cannot be simulated as it is
+  }
+}
+
+// While the body moves only places and values change.
+void Bench::move_scene(Snapshot& next) {
+  const sculpt::Document& document = session_->document();
+  auto scene = std::make_shared<sculpt::Scene>(*last_->scene);
+  const Eigen::Matrix3Xd now =
+      document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
+  for (std::size_t i = 0; i < scene->surface.positions.size(); ++i)
+    scene->surface.positions[i] =
+        now.col(static_cast<Eigen::Index>(scene->surface.vertex_from_surface[i])).cast<float>();
+  if (shown_.cage) {
+    scene->cage_lines.clear();
+    scene->cage_points.clear();
+    sculpt::add_cage(*scene, document.solid(), document.positions());
+  }
+  if (!shown_.field.empty()) {
+    const sculpt::ShownField field = sculpt::shown_field(document, shown_.field);
+    sculpt::show_field(*scene, {field.values.data(), static_cast<std::size_t>(field.values.size())}, field.title,
+                       field.unit, field.map);
+    if (shown_.range) {
+      scene->legend->low = (*shown_.range)[0];
+      scene->legend->high = (*shown_.range)[1];
+    }
+  }
+  next.scene = scene;
+  bound(next);
+}
+
+void Bench::read_document(Snapshot& next) {
+  const sculpt::Document& document = session_->document();
+  next.control_cells = document.solid().cell_count();
+  const Eigen::Matrix3Xd& rest = document.rest();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
+  for (const subdiv::VertexId v : document.solid().vertices()) {
+    low = low.cwiseMin(rest.col(static_cast<Eigen::Index>(v.index())));
+    high = high.cwiseMax(rest.col(static_cast<Eigen::Index>(v.index())));
+  }
+  next.rest_middle = 0.5 * (low + high);
+  next.pinned = document.state().pins->control_points.size() + document.state().pins->nodes.size();
+  for (std::size_t f = 0; f < next.materials.size(); ++f) {
+    const Eigen::VectorXd& values = document.state().fields->values[f];
+    Snapshot::Material& material = next.materials[f];
+    material = {};
+    if (values.size() == 0) continue;
+    double sum = 0;
+    for (const double value : values) {
+      sum += value;
+      material.uniform = material.uniform && value == values[0];
+    }
+    material.mean = material.uniform ? values[0] : sum / static_cast<double>(values.size());
+  }
+  try {
+    const fem::Discretization& d = document.discretization();
+    next.elements = d.elements.cubic + d.elements.linear + d.elements.pyramid;
+    next.unknowns = static_cast<std::size_t>(sculpt::measure(document, {.name = "unknowns"}));
+    next.volume = sculpt::measure(document, {.name = "volume"});
+    next.mass = sculpt::measure(document, {.name = "mass"});
+  } catch (const Error&) {
+    next.elements = next.unknowns = 0;
+  }
+}
+
+std::shared_ptr<const Snapshot> Bench::snapshot() {
+  auto next = std::make_shared<Snapshot>();
+  if (last_) *next = *last_;
+  ++next->version;
+  next->shade_again = false;
+  const sculpt::Document& document = session_->document();
+  const bool empty = document.empty();
+  const bool moving = stroke_ || playing_;
+  if (empty) {
+    next->scene.reset();
+    next->control_cells = next->elements = next->unknowns = next->pinned = 0;
+  } else if (whole_ || !moving || !last_ || !last_->scene) {
+    if (whole_ || !last_ || !last_->scene) {
+      draw_scene(*next);
+      read_document(*next);
+      next->shade_again = shade_again_;
+      shade_again_ = false;
+    }
+  } else if (last_->state.motion != document.state().motion) {
+    move_scene(*next);
+  }
+  next->state = document.state();
+  next->tool = document.state().tool;
+  if (history_changed_ || !shown_history_) {
+    for (HistoryEntry& entry : history_) entry.undone = entry.depth > session_->undo_depth();
+    shown_history_ = std::make_shared<const std::vector<HistoryEntry>>(history_);
+  }
+  next->history = shown_history_;
+  next->undo_depth = session_->undo_depth();
+  next->redo_depth = session_->redo_depth();
+  next->journal_lines = lines_;
+  next->saved = lines_ == saved_lines_;
+  next->file = file_.string();
+  next->solid_number = solids_;
+  next->playing = playing_;
+  next->stroke.reset();
+  if (stroke_) {
+    if (!stroke_from_) stroke_from_ = stroke_->force().at;
+    next->stroke = stroke_now();
+  }
+  const auto& steps = session_->steps();
+  next->steps = static_cast<long>(steps.size());
+  if (!steps.empty()) {
+    double sum = 0;
+    const std::size_t count = std::min<std::size_t>(steps.size(), 30);
+    for (std::size_t i = steps.size() - count; i < steps.size(); ++i) sum += steps[i].ms;
+    next->step_ms = sum / static_cast<double>(count);
+  }
+  next->missed_ticks = missed_ticks_;
+  next->stroke_times = stroke_times_;
+  next->messages = messages_;
+  changed_ = whole_ = history_changed_ = false;
+  last_ = next;
+  return next;
+}
+
+}  // namespace argil::studio

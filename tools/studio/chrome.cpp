@@ -1,0 +1,501 @@
+#include "tools/studio/chrome.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sculpt/command.h"
+#include "tools/studio/search.h"
+#include "tools/view/legend.h"
+
+namespace argil::studio {
+
+Layout lay_out(const Desk& desk, int width, int height) {
+  const Ui& ui = *desk.ui;
+  const auto w = static_cast<float>(width), h = static_cast<float>(height);
+  const float gap = ui.px(k_gap), menu = ui.px(k_menu_height);
+  Layout l;
+  l.menu = {0, 0, w, menu};
+  l.status = {0, h - ui.px(k_status_height), w, ui.px(k_status_height)};
+  l.timeline = {0, l.status.y - ui.px(k_timeline_height), w, ui.px(k_timeline_height)};
+  const float top = menu + gap, bottom = l.timeline.y - gap;
+  if (!desk.settings.panels) {
+    l.free = {0, menu, w, l.timeline.y - menu};
+    l.shelf = l.panel = {0, 0, 0, 0};
+    l.legend = {w - gap - ui.px(96), top, ui.px(96), ui.px(320)};
+    return l;
+  }
+  l.shelf = {gap, top, ui.px(k_shelf_width), bottom - top};
+  const float panel = ui.px(k_panel_width);
+  l.panel = {w - gap - panel, top, panel, bottom - top};
+  l.legend = {l.panel.x - gap - ui.px(96), top, ui.px(96), std::min(ui.px(320), bottom - top)};
+  const float left = l.shelf.right() + gap;
+  l.free = {left, menu, l.panel.x - gap - left, l.timeline.y - menu - ui.px(44)};
+  return l;
+}
+
+namespace {
+
+// A hairline of the shelf stands between forces, paint, and the rest.
+bool parted(const ShelfTool& above, const ShelfTool& below) {
+  const auto group = [](ToolKind kind) { return kind == ToolKind::pin ? ToolKind::paint : kind; };
+  return group(above.kind) != group(below.kind);
+}
+
+std::string grouped(std::size_t number) {
+  const std::string digits = fmt::format("{}", number);
+  std::string result;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) result += ',';
+    result += digits[i];
+  }
+  return result;
+}
+
+void draw_actions(Desk& desk, const Menu& menu, const Perform& perform) {
+  const Settings& s = desk.settings;
+  for (const ActionInfo& action : action_table()) {
+    if (std::strcmp(action.menu, menu.name) != 0) continue;
+    const std::size_t number = static_cast<std::size_t>(action.action) - static_cast<std::size_t>(Action::tool_1);
+    const bool is_tool = action.action >= Action::tool_1 && action.action <= Action::tool_9;
+    if (is_tool && number >= shelf_tools().size()) continue;
+    using enum Action;
+    const bool marked = (action.action == symmetry && desk.brush.symmetry != 0) ||
+                        (action.action == keep_shape && s.keep_shape) ||
+                        (action.action == wireframe && s.wireframe) || (action.action == cage && s.cage) ||
+                        (action.action == cut_away && s.cut) || (action.action == theme && s.light) ||
+                        (action.action == panels && s.panels) || (is_tool && number == s.tool);
+    const bool enabled = action.action == undo   ? desk.now->undo_depth > 0
+                         : action.action == redo ? desk.now->redo_depth > 0
+                                                 : true;
+    const std::string label = is_tool ? shelf_tools()[number].label : action.label;
+    if (desk.ui->list_row(label, desk.bindings.word_of(action.action), marked, false,
+                          is_tool ? shelf_tools()[number].help : action.help, enabled)) {
+      perform(action.action);
+      ImGui::CloseCurrentPopup();
+    }
+  }
+}
+
+void draw_commands(Desk& desk, const char* group) {
+  for (const sculpt::Command& command : sculpt::command_table()) {
+    if (command.group != group) continue;
+    const bool alone = runs_alone(command) && command.parameters.empty();
+    if (desk.ui->list_row(command.name, alone ? "" : "…", false, false, command.summary)) {
+      if (alone)
+        desk.run(command.name);
+      else
+        desk.open_dialogue(Dialogue::search, command.name + ' ');
+      ImGui::CloseCurrentPopup();
+    }
+  }
+}
+
+void draw_menu_popup(Desk& desk, const Menu& menu, float x, float y, const Perform& perform) {
+  Ui& ui = *desk.ui;
+  const float row = ui.px(28), head = ui.px(28), column = ui.px(226), pad = ui.px(6);
+  // Actions and groups are spread over columns of about the same height.
+  std::size_t actions = 0;
+  for (const ActionInfo& action : action_table()) {
+    const std::size_t number = static_cast<std::size_t>(action.action) - static_cast<std::size_t>(Action::tool_1);
+    const bool beyond =
+        action.action >= Action::tool_1 && action.action <= Action::tool_9 && number >= shelf_tools().size();
+    if (std::strcmp(action.menu, menu.name) == 0 && !beyond) ++actions;
+  }
+  struct Part {
+    const char* group;  // null: the actions
+    float height;
+    std::size_t column = 0;
+  };
+  std::vector<Part> parts;
+  if (actions > 0) parts.push_back({nullptr, row * static_cast<float>(actions)});
+  for (const char* group : menu.groups) {
+    const auto count = std::count_if(sculpt::command_table().begin(), sculpt::command_table().end(),
+                                     [&](const sculpt::Command& command) { return command.group == group; });
+    parts.push_back({group, head + row * static_cast<float>(count)});
+  }
+  std::size_t columns = 0;
+  float filled = 0, tallest = 0;
+  const float most = ui.px(430);
+  for (Part& part : parts) {
+    if (filled > 0 && filled + part.height > most) {
+      ++columns;
+      filled = 0;
+    }
+    part.column = columns;
+    filled += part.height;
+    tallest = std::max(tallest, filled);
+  }
+  const float width = column * static_cast<float>(columns + 1) + 2 * pad, height = tallest + 2 * pad;
+  ImGui::SetNextWindowPos({x, y});
+  ImGui::SetNextWindowSize({width, height});
+  if (!ImGui::BeginPopup(menu.name, ImGuiWindowFlags_NoMove)) return;
+  const Rect place{x, y, width, height};
+  ImDrawList& draw = ui.list();
+  draw.PushClipRectFullScreen();
+  ui.shadow(draw, place, k_corner);
+  draw.PopClipRect();
+  ui.box(draw, place, ui.tokens().raised);
+  ui.frame(draw, place, ui.tokens().outline);
+  float at = y + pad;
+  std::size_t now = 0;
+  for (const Part& part : parts) {
+    if (part.column != now) at = y + pad;
+    now = part.column;
+    const float left = x + pad + column * static_cast<float>(part.column);
+    ui.set_cursor(left, at, column);
+    if (part.group != nullptr) {
+      ui.text(draw, ui.fonts().small_strong, {left + ui.px(12), at, column, head}, ui.tokens().faint, part.group);
+      ui.set_cursor(left, at + head, column);
+      draw_commands(desk, part.group);
+    } else {
+      draw_actions(desk, menu, perform);
+    }
+    at += part.height;
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void draw_menu(Desk& desk, const Layout& layout, const Perform& perform) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  ui.begin_panel("menu", layout.menu, t.bar, 0);
+  ImDrawList& draw = ui.list();
+  float x = ui.px(16);
+  ui.text(draw, ui.fonts().strong, {x, 0, ui.px(60), layout.menu.height}, t.text, "Argil");
+  x += ui.width_of(ui.fonts().strong, "Argil") + ui.px(12);
+  for (const Menu& menu : menus()) {
+    const float width = ui.width_of(ui.fonts().text, menu.name) + ui.px(18);
+    const Rect place{x, ui.px(4), width, layout.menu.height - ui.px(8)};
+    const bool is_open = ImGui::IsPopupOpen(menu.name);
+    ImGui::SetCursorScreenPos({place.x, place.y});
+    ImGui::PushID(menu.name);
+    const bool pressed = ImGui::InvisibleButton("##menu", {place.width, place.height});
+    const bool hovered = ImGui::IsMouseHoveringRect({place.x, place.y}, {place.right(), place.bottom()}, false);
+    ImGui::PopID();
+    ui.note_control(ControlKind::button, menu.name, menu.help, "", place);
+    bool another = false;
+    for (const Menu& other : menus()) another = another || (&other != &menu && ImGui::IsPopupOpen(other.name));
+    // With one menu open the pointer goes from one to the next.
+    if (pressed || (another && hovered)) ImGui::OpenPopup(menu.name);
+    if (hovered || is_open) ui.box(draw, place, faded(t.outline, 0.7F), 4);
+    ui.text(draw, ui.fonts().text, place, hovered || is_open ? t.text : t.quiet, menu.name, Side::centre);
+    draw_menu_popup(desk, menu, place.x, layout.menu.bottom() + ui.px(2), perform);
+    x += width;
+  }
+
+  // At the right: search, and whether what was done is saved.
+  const std::string name =
+      desk.now->file.empty() ? "untitled" : std::filesystem::path(desk.now->file).filename().string();
+  float right = layout.menu.width - ui.px(16);
+  const float name_width = ui.width_of(ui.fonts().small, name);
+  const Rect named{right - name_width, 0, name_width, layout.menu.height};
+  ui.text(draw, ui.fonts().small, named, t.quiet, name);
+  const float dot = named.x - ui.px(14);
+  draw.AddCircleFilled({dot, 0.5F * layout.menu.height}, ui.px(4), desk.now->saved ? t.good : t.accent, 20);
+  ui.note_control(ControlKind::reading, "Session",
+                  desk.now->saved ? "All is saved" : "Not saved yet; the journal holds it", "",
+                  {dot - ui.px(8), 0, right - dot + ui.px(8), layout.menu.height});
+  const Rect box{dot - ui.px(24) - ui.px(250), ui.px(5), ui.px(250), layout.menu.height - ui.px(10)};
+  ImGui::SetCursorScreenPos({box.x, box.y});
+  const bool searched = ImGui::InvisibleButton("##search", {box.width, box.height});
+  ui.box(draw, box, ImGui::IsItemHovered() ? t.well_hovered : t.well);
+  ui.text(draw, ui.fonts().small, {box.x + ui.px(12), box.y, box.width, box.height}, t.faint,
+          "Search commands  ·  " + desk.bindings.word_of(Action::search));
+  ui.note_control(ControlKind::button, "Search", desk.tooltip(Action::search), "", box);
+  if (searched) perform(Action::search);
+  ui.end_panel();
+}
+
+void draw_shelf(Desk& desk, const Layout& layout) {
+  if (!desk.settings.panels) return;
+  Ui& ui = *desk.ui;
+  const float cell = ui.px(36), step = ui.px(40), margin = ui.px(4), line = ui.px(9);
+  const auto& tools = shelf_tools();
+  float height = 2 * margin;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (i > 0 && parted(tools[i - 1], tools[i])) height += line;
+    height += i + 1 < tools.size() ? step : cell;
+  }
+  const Rect place{layout.shelf.x, layout.shelf.y, layout.shelf.width, std::min(height, layout.shelf.height)};
+  ui.begin_panel("shelf", place, ui.tokens().panel, k_corner, true);
+  float y = place.y + margin - ImGui::GetScrollY();
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (i > 0 && parted(tools[i - 1], tools[i])) {
+      ui.list().AddRectFilled({place.x + ui.px(9), y + ui.px(1)}, {place.right() - ui.px(9), y + ui.px(2)},
+                              ui.tokens().outline);
+      y += line;
+    }
+    std::string tooltip = std::string(tools[i].label) + ": " + tools[i].help;
+    if (i < 9)
+      tooltip += "  ·  " + desk.bindings.word_of(static_cast<Action>(static_cast<std::size_t>(Action::tool_1) + i));
+    if (ui.icon_button(tools[i].label, {place.x + margin, y, cell, cell}, tools[i].icon, i == desk.settings.tool,
+                       tooltip))
+      desk.take_tool(i);
+    y += step;
+  }
+  ui.set_cursor(place.x, y - (step - cell), place.width);
+  ui.end_panel();
+}
+
+void draw_legend(Desk& desk, const Layout& layout) {
+  if (!desk.now->scene || !desk.now->scene->legend || desk.now->scene->surface.values.empty()) return;
+  const sculpt::SceneLegend& legend = *desk.now->scene->legend;
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const Rect& place = layout.legend;
+  const float bar_width = ui.px(16), top = place.y + ui.px(34),
+              height = std::min(ui.px(240), place.height - ui.px(60));
+  const float left = place.right() - bar_width;
+  ui.text(draw, ui.fonts().small, {place.x, place.y + ui.px(4), place.width, ui.px(22)}, t.quiet, legend.title,
+          Side::right);
+  const view::MapColours& map = view::map_colours(legend.map);
+  constexpr int k_parts = 40;
+  for (int i = 0; i < k_parts; ++i) {
+    const auto colour = [&](int k) { return ink(view::field_colour(map, 1 - static_cast<double>(k) / k_parts)); };
+    const float y0 = top + height * static_cast<float>(i) / k_parts,
+                y1 = top + height * static_cast<float>(i + 1) / k_parts;
+    draw.AddRectFilledMultiColor({left, y0}, {left + bar_width, y1}, colour(i), colour(i), colour(i + 1),
+                                 colour(i + 1));
+  }
+  draw.AddRect({left - 1, top - 1}, {left + bar_width + 1, top + height + 1}, faded(t.panel, 0.9F), ui.px(3), 0,
+               ui.px(2));
+  for (const view::Tick& tick : view::legend_ticks(legend, 5)) {
+    const double share = (tick.value - legend.low) / std::max(1e-300, legend.high - legend.low);
+    const float y = top + height * static_cast<float>(1 - share);
+    draw.AddLine({left - ui.px(4), y}, {left, y}, t.faint, ui.px(1));
+    ui.text(draw, ui.fonts().small,
+            {place.x - ui.px(40), y - ui.px(10), left - ui.px(8) - place.x + ui.px(40), ui.px(20)}, t.quiet,
+            tick.text, Side::right);
+  }
+  ui.note_control(ControlKind::reading, "Legend", "What the colours mean: " + legend.title, legend.unit,
+                  {left - ui.px(40), top, bar_width + ui.px(40), height});
+}
+
+void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Snapshot& now = *desk.now;
+  const Rect& place = layout.timeline;
+  ui.begin_panel("timeline", place, t.bar, 0);
+  ImDrawList& draw = ui.list();
+  const float size = ui.px(30), y = place.y + 0.5F * (place.height - size);
+  float x = ui.px(10);
+  if (ui.icon_button(
+          "Play", {x, y, size, size}, now.playing ? icons::pause : icons::play, false,
+          (now.playing ? "Stops time" : "Lets time run") + ("  ·  " + desk.bindings.word_of(Action::play))))
+    perform(Action::play);
+  x += size + ui.px(2);
+  if (ui.icon_button("One step", {x, y, size, size}, icons::step, false, desk.tooltip(Action::one_step)))
+    perform(Action::one_step);
+  x += size + ui.px(10);
+  const double time = now.state.motion ? now.state.motion->time : 0;
+  const std::string here = fmt::format("{:.3f} s", time);
+  ui.text(draw, ui.fonts().small, {x, place.y, ui.px(64), place.height}, t.quiet, here);
+  ui.note_control(ControlKind::reading, "Time", "Time of the simulation", "s", {x, y, ui.px(64), size});
+  double last = std::max(1.0, time);
+  for (const double stroke : now.stroke_times) last = std::max(last, stroke);
+  last = std::ceil(last * 1.25);
+  const std::string end = fmt::format("{:.0f} s", last);
+  const float end_width = ui.width_of(ui.fonts().small, end);
+  ui.text(draw, ui.fonts().small, {place.width - ui.px(18) - end_width, place.y, end_width, place.height}, t.quiet,
+          end);
+  const float left = x + ui.px(70), right = place.width - ui.px(34) - end_width,
+              middle = place.y + 0.5F * place.height;
+  const auto at = [&](double when) {
+    return left + (right - left) * static_cast<float>(std::clamp(when / last, 0.0, 1.0));
+  };
+  ui.box(draw, {left, middle - ui.px(2.5F), right - left, ui.px(5)}, t.outline, 2.5F);
+  if (time > 0)
+    ui.box(draw, {left, middle - ui.px(2.5F), std::max(ui.px(5), at(time) - left), ui.px(5)}, t.accent, 2.5F);
+  for (const double stroke : now.stroke_times)
+    ui.box(draw, {at(stroke) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)}, t.mark, 1.5F);
+  draw.AddCircleFilled({at(time), middle}, ui.px(6), t.accent, 24);
+  ui.note_control(ControlKind::reading, "Timeline", "How far time has gone; marks stand where strokes ended", "s",
+                  {left, y, right - left, size});
+  ui.end_panel();
+}
+
+void draw_status(Desk& desk, const Layout& layout) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Snapshot& now = *desk.now;
+  const Rect& place = layout.status;
+  ui.begin_panel("status", place, t.status, 0);
+  ImDrawList& draw = ui.list();
+  float x = ui.px(18);
+  const auto word = [&](const std::string& line, bool strong) {
+    ImFont* font = strong ? ui.fonts().small_strong : ui.fonts().small;
+    ui.text(draw, font, {x, place.y, 0, place.height}, strong ? t.text : t.quiet, line);
+    x += ui.width_of(font, line);
+  };
+  const auto begin = [&] { return x; };
+  const auto end = [&](float from, const char* name, const char* tooltip, const char* unit) {
+    ui.note_control(ControlKind::reading, name, tooltip, unit, {from, place.y, x - from, place.height});
+    x += ui.px(26);
+  };
+  float from = begin();
+  word(desk.virtual_clock ? "60" : fmt::format("{:.0f}", desk.frames_a_second), true);
+  word(" fps", false);
+  end(from, "Frames", "Pictures a second", "1/s");
+  from = begin();
+  word("step ", false);
+  word(desk.virtual_clock || now.steps == 0 ? "— ms" : fmt::format("{:.1f} ms", now.step_ms), true);
+  end(from, "Step", "What a step of the simulation costs, mean of the last thirty", "ms");
+  from = begin();
+  word(grouped(now.elements), true);
+  word(" elements  ·  ", false);
+  word(grouped(now.unknowns), true);
+  word(" unknowns", false);
+  end(from, "Size", "Finite elements, and numbers that a step solves for", "1");
+  from = begin();
+  word("mouse ", false);
+  word("1000 Hz", true);
+  word(fmt::format(", {} missed", now.missed_ticks), false);
+  end(from, "Device", "Ticks of the device a second, and those that the simulation was too slow for", "Hz");
+  from = begin();
+  const double force = now.stroke ? now.stroke->force.norm() : 0;
+  word("force ", false);
+  word(fmt::format("{:.1f} N", force), true);
+  x += ui.px(8);
+  const float bar = ui.px(70), height = ui.px(8), top = place.y + 0.5F * (place.height - height);
+  ui.box(draw, {x, top, bar, height}, t.outline, 2);
+  const double share = std::clamp(force / std::max(1e-9, std::min(desk.brush.largest_force, 1e3)), 0.0, 1.0);
+  if (share > 0.02)
+    ui.box(draw, {x, top, bar * static_cast<float>(share), height}, now.stroke->at_limit ? t.warning : t.accent, 2);
+  x += bar;
+  end(from, "Force", "What the tool applies, against its limit", "N");
+
+  // The latest message, else what the physics is.
+  const bool fresh = !now.messages.empty() && desk.time - desk.message_since < 6;
+  const float room = place.width - ui.px(18) - x;
+  std::string line;
+  Ink colour = t.quiet;
+  if (fresh) {
+    const Message& message = now.messages.back();
+    line = message.text;
+    colour = message.kind == MessageKind::error     ? t.warning
+             : message.kind == MessageKind::warning ? t.accent
+                                                    : t.text;
+  } else if (now.scene) {
+    line = fmt::format("{} space  ·  {}  ·  {}", fem::word(now.state.space), now.state.model.name,
+                       fem::method_kind(now.state.method).name);
+  }
+  const std::string whole = line;
+  while (line.size() > 3 && ui.width_of(ui.fonts().small, line) > room) {
+    line.resize(line.size() - 2);
+    while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
+    if (!line.empty() && static_cast<unsigned char>(line.back()) >= 0x80U) line.pop_back();
+    if (ui.width_of(ui.fonts().small, line + "…") <= room) {
+      line += "…";
+      break;
+    }
+  }
+  const float width = ui.width_of(ui.fonts().small, line);
+  const Rect said{place.width - ui.px(18) - width, place.y, width, place.height};
+  ui.text(draw, ui.fonts().small, said, colour, line);
+  if (!whole.empty())
+    ui.note_control(ControlKind::reading, "Message",
+                    line == whole ? "The latest message, or how the solid is simulated" : whole, "", said);
+  ui.end_panel();
+}
+
+void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Rect& free = layout.free;
+  const float middle = free.x + 0.5F * free.width;
+  struct Hint {
+    std::string strong, rest;
+  };
+  const auto pill = [&](const std::vector<Hint>& hints, float y) {
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const std::string between = "   ·   ";
+    float width = ui.px(32);
+    for (std::size_t i = 0; i < hints.size(); ++i)
+      width += ui.width_of(ui.fonts().small_strong, hints[i].strong) +
+               ui.width_of(ui.fonts().small, hints[i].rest) + (i > 0 ? ui.width_of(ui.fonts().small, between) : 0);
+    const float height = ui.px(32);
+    Rect at{middle - 0.5F * width, y - height, width, height};
+    ui.box(draw, at, faded(t.panel, 0.9F));
+    float x = at.x + ui.px(16);
+    for (std::size_t i = 0; i < hints.size(); ++i) {
+      const auto add = [&](ImFont* font, Ink colour, const std::string& line) {
+        ui.text(draw, font, {x, at.y, 0, height}, colour, line);
+        x += ui.width_of(font, line);
+      };
+      if (i > 0) add(ui.fonts().small, t.faint, between);
+      add(ui.fonts().small_strong, t.text, hints[i].strong);
+      add(ui.fonts().small, t.quiet, hints[i].rest);
+    }
+  };
+
+  if (!desk.now->scene) {
+    const float width = ui.px(360), height = ui.px(152);
+    const Rect place{middle - 0.5F * width, free.y + 0.42F * free.height - 0.5F * height, width, height};
+    ui.begin_panel("empty", place, t.panel, 8);
+    ui.text(ui.list(), ui.fonts().strong, {place.x, place.y + ui.px(18), width, ui.px(24)}, t.text,
+            "Nothing here yet", Side::centre);
+    ui.text(ui.list(), ui.fonts().small, {place.x, place.y + ui.px(46), width, ui.px(22)}, t.quiet,
+            "Begin with a block, or drop a file on the window", Side::centre);
+    if (ui.text_button("Begin with a block", {place.x + ui.px(32), place.y + ui.px(88), ui.px(140), ui.px(36)},
+                       "New block", true, desk.tooltip(Action::new_block)))
+      perform(Action::new_block);
+    if (ui.text_button("Open a file", {place.x + width - ui.px(172), place.y + ui.px(88), ui.px(140), ui.px(36)},
+                       "Open…", false, desk.tooltip(Action::open)))
+      perform(Action::open);
+    ui.end_panel();
+    return;
+  }
+
+  if (desk.card) {
+    struct First {
+      Icon icon;
+      const char *strong, *rest;
+    };
+    static constexpr First k_first[] = {{icons::hand, "Drag on clay", "pulls it"},
+                                        {icons::eye, "Drag beside it", "turns the view"},
+                                        {icons::search, "Wheel", "comes nearer"},
+                                        {icons::expand, "F", "sizes the brush"},
+                                        {icons::deflate, "Ctrl", "inverts the tool"}};
+    const float width = ui.px(560), height = ui.px(118);
+    const Rect place{middle - 0.5F * width, layout.timeline.y - height - ui.px(16), width, height};
+    ui.begin_panel("card", place, 0, 0);
+    ImDrawList& draw = ui.list();
+    draw.PushClipRectFullScreen();
+    ui.shadow(draw, place, 8);
+    draw.PopClipRect();
+    ui.box(draw, place, t.raised, 8);
+    const float column = (width - ui.px(24)) / 5;
+    for (std::size_t i = 0; i < std::size(k_first); ++i) {
+      const float x = place.x + ui.px(12) + column * static_cast<float>(i);
+      ui.icon(draw, {x, place.y + ui.px(20), column, ui.px(26)}, t.accent, k_first[i].icon);
+      ui.text(draw, ui.fonts().small_strong, {x, place.y + ui.px(54), column, ui.px(20)}, t.text, k_first[i].strong,
+              Side::centre);
+      ui.text(draw, ui.fonts().small, {x, place.y + ui.px(74), column, ui.px(20)}, t.quiet, k_first[i].rest,
+              Side::centre);
+    }
+    if (ui.icon_button("Close the card", {place.right() - ui.px(28), place.y + ui.px(4), ui.px(24), ui.px(24)},
+                       icons::cross, false, "Closes the card; Help has it again"))
+      desk.card = false;
+    ui.end_panel();
+    return;
+  }
+
+  const ShelfTool& tool = desk.tool();
+  std::vector<Hint> hints;
+  hints = {{"Drag", std::string(" on clay ") + tool.verb}, {"drag beside", " orbits"}};
+  if (tool.kind != ToolKind::extrude) hints.push_back({desk.bindings.word_of(Action::brush_radius), " radius"});
+  if (tool.kind != ToolKind::extrude && tool.kind != ToolKind::probe) hints.push_back({"Ctrl", " inverts"});
+  if (tool.kind == ToolKind::force) hints.push_back({"Shift", " smooths"});
+  if (desk.settings.cut) hints.push_back({"Wheel", " moves the cut"});
+  pill(hints, layout.timeline.y - ui.px(16));
+}
+
+}  // namespace argil::studio

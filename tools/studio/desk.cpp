@@ -1,0 +1,218 @@
+#include "tools/studio/desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace argil::studio {
+
+namespace {
+
+const std::vector<ShelfTool>& known_tools() {
+  using enum ToolKind;
+  static const std::vector<ShelfTool> tools{
+      {force, "pull", "Pull", "pulls", "Draws what it touches by a spring; towards the solid it pushes",
+       icons::hand},
+      {force, "grab", "Grab", "takes along", "Takes what it touches along, as it is", icons::grab},
+      {force, "inflate", "Inflate", "inflates", "Presses outwards from within; inverted it deflates",
+       icons::expand},
+      {force, "twist", "Twist", "twists", "Turns what it touches; move the pointer sideways", icons::twist},
+      {force, "pinch", "Pinch", "pinches", "Draws what it touches together; inverted it spreads", icons::pinch},
+      {force, "smooth", "Smooth", "smooths", "Draws each point to the mean of its surroundings", icons::drop},
+      {paint, "paint_stiffness", "Paint stiffness", "stiffens", "Makes clay stiffer; inverted softer",
+       icons::brush},
+      {paint, "paint_mass", "Paint mass", "makes heavy", "Makes clay denser; inverted lighter", icons::balance,
+       "density"},
+      {paint, "paint_damping", "Paint damping", "damps", "Makes motion die out faster; inverted slower",
+       icons::damping, "damping"},
+      {pin, "pin_brush", "Pin", "pins", "Holds control points where they are; inverted lets go", icons::pin},
+      {extrude, "", "Extrude", "draws a face out", "Draws a face of the control solid out into a new cell",
+       icons::cube},
+      {probe, "probe", "Probe", "feels", "Touches without changing, and reads how stiff it feels", icons::probe},
+  };
+  return tools;
+}
+
+bool is_there(const ShelfTool& tool) {
+  if (*tool.name == '\0') return true;
+  for (const sculpt::Command& command : sculpt::command_table())
+    if (command.name == "tool") {
+      const auto& choices = command.parameters.front().choices;
+      return std::find(choices.begin(), choices.end(), tool.name) != choices.end();
+    }
+  return false;
+}
+
+}  // namespace
+
+const std::vector<ShelfTool>& shelf_tools() {
+  static const std::vector<ShelfTool> tools = [] {
+    std::vector<ShelfTool> there;
+    for (const ShelfTool& tool : known_tools())
+      if (is_there(tool)) there.push_back(tool);
+    return there;
+  }();
+  return tools;
+}
+
+const std::vector<std::string>& cycled_fields() {
+  static const std::vector<std::string> fields{"", "strain", "stress", "displacement", "young_modulus", "density"};
+  return fields;
+}
+
+void Desk::take_tool(std::size_t index) {
+  if (index >= shelf_tools().size()) return;
+  settings.tool = index;
+  settings.panel = Panel::tool;
+  if (*tool().name != '\0') brush.name = tool().name;
+  // What is painted should be seen; clay comes back with the next tool.
+  const bool paints = *tool().field != '\0';
+  if (paints ? settings.field != tool().field : settings.field_of_tool) {
+    settings.field = tool().field;
+    settings.fixed_range = false;
+    show();
+  }
+  settings.field_of_tool = paints;
+}
+
+void Desk::follow_solid() {
+  if (now->solid_number == brush_solid) return;
+  brush_solid = now->solid_number;
+  const std::string name = brush.name;
+  brush = now->tool;
+  brush.name = name;
+}
+
+void Desk::show() const {
+  Shown shown;
+  shown.field = settings.field;
+  if (!settings.field.empty() && settings.fixed_range && settings.range_low < settings.range_high)
+    shown.range = {settings.range_low, settings.range_high};
+  if (settings.cut) shown.clip = sculpt::ClipPlane{settings.cut_point, settings.cut_normal};
+  shown.cage = settings.cage;
+  shown.finest_wires = settings.finest_wires;
+  workshop->post([shown](Bench& bench) { bench.show(shown); });
+}
+
+void Desk::open_dialogue(Dialogue which, const std::string& text) {
+  dialogue = which;
+  typed = text;
+  chosen = 0;
+}
+
+std::string Desk::tooltip(Action action) const {
+  const std::string keys = bindings.word_of(action);
+  return std::string(info(action).help) + (keys.empty() ? "" : "  ·  " + keys);
+}
+
+bool Desk::perform(Action action) {
+  using enum Action;
+  const auto post = [&](auto order) { workshop->post(order); };
+  switch (action) {
+    case new_block:
+      workshop->run_together(block_lines());
+      return true;
+    case open:
+      open_dialogue(Dialogue::open, folder == "." ? "" : folder.string() + "/");
+      return true;
+    case save:
+      if (!now->file.empty()) {
+        post([file = std::filesystem::path(now->file)](Bench& bench) { bench.save(file); });
+        return true;
+      }
+      [[fallthrough]];
+    case save_as:
+      open_dialogue(Dialogue::save, now->file.empty() ? (folder / "untitled.argil").string() : now->file);
+      return true;
+    case screenshot:
+      takes_picture = true;
+      return true;
+    case quit:
+      quits = true;
+      return true;
+    case undo:
+      post([](Bench& bench) { bench.undo(); });
+      return true;
+    case redo:
+      post([](Bench& bench) { bench.redo(); });
+      return true;
+    case search:
+      open_dialogue(dialogue == Dialogue::search ? Dialogue::none : Dialogue::search);
+      return true;
+    case sheet_of_keys:
+      open_dialogue(dialogue == Dialogue::keys ? Dialogue::none : Dialogue::keys);
+      return true;
+    case forces_off:
+      post([](Bench& bench) {
+        bench.cancel_stroke();
+        bench.set_playing(false);
+        const sculpt::AppliedLoads& loads = *bench.session().document().state().loads;
+        std::vector<std::string> lines;
+        if (!loads.forces.empty()) lines.emplace_back("force 0 0 0 clear");
+        if (!loads.gravity.isZero()) lines.emplace_back("gravity 0 0 0");
+        if (!lines.empty()) bench.run_together(lines);
+        bench.say(MessageKind::warning, "all force is off");
+      });
+      return true;
+    case play:
+      post([](Bench& bench) { bench.set_playing(!bench.is_playing()); });
+      return true;
+    case one_step:
+      run("step 1");
+      return true;
+    case to_rest:
+      run("solve");
+      return true;
+    case symmetry:
+      brush.symmetry = brush.symmetry == 0 ? 'x' : '\0';
+      return true;
+    case keep_shape:
+      settings.keep_shape = !settings.keep_shape;
+      return true;
+    case wireframe:
+      settings.wireframe = !settings.wireframe;
+      return true;
+    case cage:
+      settings.cage = !settings.cage;
+      show();
+      return true;
+    case next_field: {
+      const auto& fields = cycled_fields();
+      const auto at = std::find(fields.begin(), fields.end(), settings.field);
+      settings.field_of_tool = false;
+      settings.field = at == fields.end() || at + 1 == fields.end() ? fields.front() : *(at + 1);
+      settings.fixed_range = false;
+      show();
+      return true;
+    }
+    case finer:
+    case coarser:
+      if (now->scene) {
+        const int level = now->state.level + (action == finer ? 1 : -1);
+        if (level >= 0 && level <= 8) run(fmt::format("levels {}", level));
+      }
+      return true;
+    case brush_smaller:
+    case brush_larger:
+      brush.radius *= action == brush_larger ? 1.1 : 1 / 1.1;
+      return true;
+    case panels:
+      settings.panels = !settings.panels;
+      return true;
+    case theme:
+      settings.light = !settings.light;
+      return true;
+    case first_minute:
+      card = !card;
+      return true;
+    default:
+      break;
+  }
+  if (action >= tool_1 && action <= tool_9) {
+    take_tool(static_cast<std::size_t>(action) - static_cast<std::size_t>(tool_1));
+    return true;
+  }
+  return false;
+}
+
+}  // namespace argil::studio

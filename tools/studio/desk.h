@@ -1,0 +1,94 @@
+#pragma once
+// What the parts of the window share: the snapshot that this frame shows, the sculptor's settings, and the way from
+// an action to an order of the workshop.
+
+#include <filesystem>
+#include <string>
+
+#include "tools/studio/keys.h"
+#include "tools/studio/ui.h"
+#include "tools/studio/workshop.h"
+
+namespace argil::studio {
+
+/// What the pointer does on clay.
+enum class ToolKind { force, paint, pin, extrude, probe };  // a hairline of the shelf stands between two
+
+struct ShelfTool {
+  ToolKind kind;
+  const char* name;  // as the command `tool` has it; "": not a stroke
+  const char* label;
+  const char* verb;  // what dragging on clay does
+  const char* help;
+  Icon icon;
+  const char* field = "";  // that it paints: shown while it is taken
+};
+/// Those that this program can do, in the order of the shelf.
+[[nodiscard]] const std::vector<ShelfTool>& shelf_tools();
+
+enum class Panel { tool, material, physics, fields, history };
+inline constexpr std::array<const char*, 5> k_panel_names{"Tool", "Material", "Physics", "Fields", "History"};
+
+struct Settings {
+  std::size_t tool = 0;  // of the shelf
+  bool keep_shape = true, wireframe = true, finest_wires = false, cage = false, light = false, panels = true;
+  bool cut = false, field_of_tool = false;
+  Eigen::Vector3d cut_point = Eigen::Vector3d::Zero(), cut_normal{0, -1, 0};
+  std::string field;  // empty: clay
+  bool fixed_range = false;
+  double range_low = 0, range_high = 1;
+  Panel panel = Panel::tool;
+};
+
+/// What lies under the brush.
+struct Reading {
+  bool there = false;
+  double young_modulus = 0, strain = -1, felt = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+};
+
+/// What has the keyboard in front of everything else.
+enum class Dialogue { none, search, keys, open, save };
+
+struct Desk {
+  Workshop* workshop = nullptr;
+  Ui* ui = nullptr;
+  Bindings bindings;
+  Settings settings;
+  std::shared_ptr<const Snapshot> now;
+  sculpt::Tool brush;  // of the next stroke; it becomes the document's when one begins
+  std::uint64_t brush_solid = 0;
+  Reading reading;
+  Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame
+  std::string typed;                                                    // in the dialogue
+  std::size_t chosen = 0;                                               // of what a search found
+  bool retake_focus = false;
+  float panel_height = 0;  // that the panel wants
+  bool card = true;        // of the first minute
+  bool quits = false, takes_picture = false;
+  std::filesystem::path folder = ".";  // where files are opened and saved
+  std::filesystem::path samples;
+  double frame_ms = 0, frames_a_second = 0;
+  std::vector<float> force_plot;  // [N], the latest last
+  double time = 0;                // [s], since the window opened
+  std::uint64_t seen_message = 0;
+  double message_since = 0;
+  bool virtual_clock = false;  // no speed is shown, so that pictures are the same
+
+  [[nodiscard]] const ShelfTool& tool() const { return shelf_tools()[settings.tool]; }
+  void run(const std::string& line) const { workshop->run(line); }
+  void take_tool(std::size_t index);
+  /// Takes the brush of a solid that was begun or opened.
+  void follow_solid();
+  /// Tells the workshop what of the settings concerns the scene.
+  void show() const;
+  /// True if it was done here; the viewport does those of the camera and the brush.
+  bool perform(Action action);
+  void open_dialogue(Dialogue which, const std::string& text = "");
+  [[nodiscard]] std::string tooltip(Action action) const;
+};
+
+/// Field names in the order in which V goes through them.
+[[nodiscard]] const std::vector<std::string>& cycled_fields();
+
+}  // namespace argil::studio

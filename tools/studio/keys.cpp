@@ -1,0 +1,229 @@
+#include "tools/studio/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "subdiv/error.h"
+
+namespace argil::studio {
+
+namespace {
+
+struct KeyName {
+  int key;
+  const char* name;
+};
+constexpr std::array k_names{KeyName{key::space, "Space"},
+                             KeyName{key::escape, "Esc"},
+                             KeyName{key::enter, "Enter"},
+                             KeyName{key::tab, "Tab"},
+                             KeyName{key::backspace, "Backspace"},
+                             KeyName{key::insert, "Insert"},
+                             KeyName{key::del, "Del"},
+                             KeyName{key::right, "Right"},
+                             KeyName{key::left, "Left"},
+                             KeyName{key::down, "Down"},
+                             KeyName{key::up, "Up"},
+                             KeyName{key::page_up, "PageUp"},
+                             KeyName{key::page_down, "PageDown"},
+                             KeyName{key::home, "Home"},
+                             KeyName{key::end, "End"},
+                             KeyName{key::pad_enter, "Numpad Enter"}};
+
+bool same(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool take_word(std::string_view& text, std::string_view word) {
+  if (text.size() <= word.size() || !same(text.substr(0, word.size()), word)) return false;
+  text.remove_prefix(word.size());
+  return true;
+}
+
+}  // namespace
+
+Chord parse_chord(std::string_view text) {
+  const std::string_view all = text = trimmed(text);
+  Chord chord;
+  for (;;) {
+    if (take_word(text, "Ctrl-"))
+      chord.control = true;
+    else if (take_word(text, "Shift-"))
+      chord.shift = true;
+    else if (take_word(text, "Alt-"))
+      chord.alt = true;
+    else
+      break;
+  }
+  for (const KeyName& name : k_names)
+    if (same(text, name.name)) chord.key = name.key;
+  if (text.size() == 1 && std::isgraph(static_cast<unsigned char>(text[0])) != 0)
+    chord.key = std::toupper(static_cast<unsigned char>(text[0]));
+  if (text.size() >= 2 && text.size() <= 3 && (text[0] == 'F' || text[0] == 'f') &&
+      std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
+    const int number = std::stoi(std::string(text.substr(1)));
+    if (number >= 1 && number <= 12) chord.key = key::f1 + number - 1;
+  }
+  if (std::string_view rest = text;
+      take_word(rest, "Numpad ") && rest.size() == 1 && rest[0] >= '0' && rest[0] <= '9')
+    chord.key = key::pad_0 + rest[0] - '0';
+  if (chord.key == 0)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("expected a key such as Ctrl-Shift-Z, F3, Home or Numpad 1, found '{}'", all));
+  return chord;
+}
+
+std::string word(const Chord& chord) {
+  if (chord.key == 0) return "";
+  std::string text;
+  if (chord.control) text += "Ctrl-";
+  if (chord.shift) text += "Shift-";
+  if (chord.alt) text += "Alt-";
+  const auto named =
+      std::find_if(k_names.begin(), k_names.end(), [&](const KeyName& n) { return n.key == chord.key; });
+  if (named != k_names.end()) return text + named->name;
+  if (chord.key >= key::f1 && chord.key < key::f1 + 12) return text + fmt::format("F{}", chord.key - key::f1 + 1);
+  if (chord.key >= key::pad_0 && chord.key < key::pad_0 + 10)
+    return text + fmt::format("Numpad {}", chord.key - key::pad_0);
+  return text + static_cast<char>(chord.key);
+}
+
+const std::array<ActionInfo, k_action_count>& action_table() {
+  using enum Action;
+  static const std::array<ActionInfo, k_action_count> table{{
+      {new_block, "new_block", "New block", "Begins with a solid block, its foot held, ready to pull", "File",
+       "Ctrl-N"},
+      {open, "open", "Open…", "Opens a session (.argil) or a volume mesh", "File", "Ctrl-O"},
+      {save, "save", "Save", "Saves all that was done as a session, which `argil replay` repeats to the bit",
+       "File", "Ctrl-S"},
+      {save_as, "save_as", "Save as…", "Saves the session under another name", "File", "Ctrl-Shift-S"},
+      {screenshot, "screenshot", "Picture of the view",
+       "Writes what the viewport shows as a PNG beside the journal", "File", "F12"},
+      {quit, "quit", "Quit", "Leaves; the journal keeps what was done", "File", "Ctrl-Q"},
+      {undo, "undo", "Undo", "Takes back the last stroke or command", "Edit", "Ctrl-Z"},
+      {redo, "redo", "Redo", "Brings back what undo took", "Edit", "Ctrl-Shift-Z"},
+      {search, "search", "Search commands…", "Finds any command by name or meaning and runs it", "Help", "F3"},
+      {sheet_of_keys, "sheet_of_keys", "Keys", "Shows every key and gesture", "Help", "F1"},
+      {cancel, "cancel", "Cancel", "Takes back the stroke under way, or closes what is open", "Edit", "Esc"},
+      {forces_off, "forces_off", "All force off", "Lets go: ends the stroke, clears forces and gravity, pauses",
+       "Physics", "Shift-Esc"},
+      {play, "play", "Play", "Lets time run, or stops it", "Physics", "Space"},
+      {one_step, "one_step", "One step", "Takes one step of the simulation", "Physics", "."},
+      {to_rest, "to_rest", "Settle", "Finds where the solid comes to rest under its loads", "Physics",
+       "Shift-Space"},
+      {tool_1, "tool_1", "Tool 1 of the shelf", "Takes the first tool of the shelf", "Tool", "1"},
+      {tool_2, "tool_2", "Tool 2 of the shelf", "Takes the second tool of the shelf", "Tool", "2"},
+      {tool_3, "tool_3", "Tool 3 of the shelf", "Takes the third tool of the shelf", "Tool", "3"},
+      {tool_4, "tool_4", "Tool 4 of the shelf", "Takes the fourth tool of the shelf", "Tool", "4"},
+      {tool_5, "tool_5", "Tool 5 of the shelf", "Takes the fifth tool of the shelf", "Tool", "5"},
+      {tool_6, "tool_6", "Tool 6 of the shelf", "Takes the sixth tool of the shelf", "Tool", "6"},
+      {tool_7, "tool_7", "Tool 7 of the shelf", "Takes the seventh tool of the shelf", "Tool", "7"},
+      {tool_8, "tool_8", "Tool 8 of the shelf", "Takes the eighth tool of the shelf", "Tool", "8"},
+      {tool_9, "tool_9", "Tool 9 of the shelf", "Takes the ninth tool of the shelf", "Tool", "9"},
+      {brush_radius, "brush_radius", "Size the brush", "Move the pointer, then click or let go of the key", "Tool",
+       "F"},
+      {brush_strength, "brush_strength", "Set the strength", "Move the pointer, then click or let go of the key",
+       "Tool", "Shift-F"},
+      {brush_smaller, "brush_smaller", "Smaller brush", "Makes the brush smaller by a tenth", "Tool", "["},
+      {brush_larger, "brush_larger", "Larger brush", "Makes the brush larger by a tenth", "Tool", "]"},
+      {symmetry, "symmetry", "Symmetry", "Works on both sides of the plane x = 0", "Tool", "X"},
+      {keep_shape, "keep_shape", "Keep the shape", "After a stroke the new shape is the shape at rest", "Tool",
+       "K"},
+      {cut_away, "cut_away", "Cut away", "Shows the inside; the wheel moves the plane", "View", "C"},
+      {wireframe, "wireframe", "Wires of cells", "Shows the edges of the cells", "View", "W"},
+      {cage, "cage", "Control cage", "Shows the control solid around its surface", "View", "G"},
+      {next_field, "next_field", "Next field", "Colours the solid by the next field, or shows clay", "View", "V"},
+      {frame_all, "frame_all", "Frame the solid", "Shows all of the solid", "View", "Home"},
+      {from_front, "from_front", "From the front", "Looks along y", "View", "Numpad 1"},
+      {from_side, "from_side", "From the side", "Looks along x", "View", "Numpad 3"},
+      {from_top, "from_top", "From the top", "Looks down", "View", "Numpad 7"},
+      {finer, "finer", "Finer", "Refines the solid once more", "Solid", "Ctrl-PageUp"},
+      {coarser, "coarser", "Coarser", "Refines the solid once less", "Solid", "Ctrl-PageDown"},
+      {panels, "panels", "Panels", "Shows or hides the panels", "View", "N"},
+      {theme, "theme", "Light theme", "Changes between the dark and the light theme", "View", "Ctrl-L"},
+      {first_minute, "first_minute", "First minute", "Shows the card of the first gestures", "Help", "Shift-F1"},
+  }};
+  return table;
+}
+
+const ActionInfo& info(Action action) {
+  return action_table()[static_cast<std::size_t>(action)];
+}
+
+const std::vector<Gesture>& gestures() {
+  static const std::vector<Gesture> all{
+      {"Drag on clay", "works with the tool"},
+      {"Drag beside it", "orbits"},
+      {"Middle drag", "orbits"},
+      {"Shift-middle drag", "pans"},
+      {"Wheel", "zooms; while cutting away, moves the plane; during a stroke, moves the tool in depth"},
+      {"Ctrl held", "inverts the tool"},
+      {"Shift held", "smooths; on a number, drags finely"},
+      {"Double click a number", "resets it"},
+  };
+  return all;
+}
+
+Bindings::Bindings() {
+  for (const ActionInfo& action : action_table())
+    chords_[static_cast<std::size_t>(action.action)] = *action.keys == '\0' ? Chord{} : parse_chord(action.keys);
+}
+
+void Bindings::read(std::string_view text, const std::string& file_name) {
+  const auto before = chords_;
+  int number = 0;
+  try {
+    while (!text.empty()) {
+      ++number;
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(text.size(), end + 1));
+      line = trimmed(line.substr(0, line.starts_with('#') ? 0 : line.find(" #")));
+      if (line.empty()) continue;
+      const std::size_t equals = line.find('=');
+      const std::string_view name = trimmed(line.substr(0, equals));
+      const auto found = std::find_if(action_table().begin(), action_table().end(),
+                                      [&](const ActionInfo& action) { return name == action.word; });
+      if (equals == line.npos || found == action_table().end())
+        throw Error(
+            ErrorCode::bad_input,
+            fmt::format("expected `action = key`, found '{}'; F1 shows the actions, undo = Ctrl-Z is one", line));
+      const std::string_view keys = trimmed(line.substr(equals + 1));
+      chords_[static_cast<std::size_t>(found->action)] = keys.empty() ? Chord{} : parse_chord(keys);
+    }
+    if (const auto twice = collision())
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("{} and {} both have the key {}; give one of them another", info((*twice)[0]).word,
+                              info((*twice)[1]).word, word_of((*twice)[0])));
+  } catch (const Error& error) {
+    chords_ = before;
+    throw Error(error.code(), error.what(), fmt::format("{}:{}", file_name, number));
+  }
+}
+
+std::optional<Action> Bindings::action_of(const Chord& chord) const {
+  if (chord.key == 0) return std::nullopt;
+  const auto found = std::find(chords_.begin(), chords_.end(), chord);
+  if (found == chords_.end()) return std::nullopt;
+  return static_cast<Action>(found - chords_.begin());
+}
+
+std::optional<std::array<Action, 2>> Bindings::collision() const {
+  for (std::size_t i = 0; i < chords_.size(); ++i)
+    for (std::size_t k = i + 1; k < chords_.size(); ++k)
+      if (chords_[i].key != 0 && chords_[i] == chords_[k])
+        return std::array{static_cast<Action>(i), static_cast<Action>(k)};
+  return std::nullopt;
+}
+
+}  // namespace argil::studio

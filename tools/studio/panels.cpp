@@ -1,0 +1,404 @@
+#include "tools/studio/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sculpt/shown_fields.h"
+#include "tools/studio/quantity.h"
+
+namespace argil::studio {
+
+namespace {
+
+std::string spaced(std::string word) {
+  std::replace(word.begin(), word.end(), '_', ' ');
+  if (!word.empty()) word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
+  return word;
+}
+
+void reading(Ui& ui, const char* name, double value, const std::string& unit, const std::string& tooltip) {
+  const Quantity words = shown(value, unit);
+  ui.reading_row(name, words.number, words.unit, tooltip);
+}
+
+/// The choices that a command gives for a word, from the one table.
+std::vector<std::string> choices_of(const char* command, const char* parameter) {
+  for (const sculpt::Command& c : sculpt::command_table())
+    if (c.name == command)
+      for (const sculpt::Parameter& p : c.parameters)
+        if (p.name == parameter) return p.choices;
+  return {};
+}
+
+double rounded(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::round(value / step) * step;
+}
+
+std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
+  return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+void force_plot(Desk& desk, float x, float width) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  ImDrawList& draw = ui.list();
+  const Rect place{x, ui.cursor_y() + ui.px(14), width, ui.px(64)};
+  draw.AddLine({place.x, place.bottom()}, {place.right(), place.bottom()}, t.outline, ui.px(1));
+  const auto& values = desk.force_plot;
+  float most = 0;
+  for (const float value : values) most = std::max(most, value);
+  if (values.size() > 1 && most > 0) {
+    std::vector<ImVec2> points;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      points.emplace_back(place.x + place.width * static_cast<float>(i) / static_cast<float>(values.size() - 1),
+                          place.bottom() - ui.px(2) - (place.height - ui.px(8)) * values[i] / most);
+    draw.AddPolyline(points.data(), static_cast<int>(points.size()), t.accent, 0, ui.px(1.6F));
+    const Quantity words = shown(most, "N");
+    ui.text(draw, ui.fonts().small, {place.x, place.y - ui.px(18), place.width, ui.px(16)}, t.faint,
+            words.number + ' ' + words.unit, Side::right);
+  } else {
+    ui.text(draw, ui.fonts().small, {place.x, place.y, place.width, place.height}, t.faint,
+            "The force of a stroke shows here", Side::centre);
+  }
+  ui.note_control(ControlKind::reading, "Force over time", "The force of the tool during the last stroke", "N",
+                  place);
+  ui.skip(88);
+}
+
+void tool_panel(Desk& desk, float x, float width) {
+  Ui& ui = *desk.ui;
+  const Snapshot& now = *desk.now;
+  const ShelfTool& tool = desk.tool();
+  const double size = std::max(1e-6, 0.5 * (now.high - now.low).norm());
+  ui.section(tool.label);
+  if (!now.scene) {
+    ui.note("A tool needs a solid. Begin with a block, or open a file.");
+    return;
+  }
+  sculpt::Tool& brush = desk.brush;
+  if (tool.kind == ToolKind::extrude) {
+    ui.note(tool.help);
+  } else {
+    ui.number_row("Radius", brush.radius,
+                  {.unit = "m",
+                   .tooltip = "Of what the brush touches  ·  " + desk.bindings.word_of(Action::brush_radius),
+                   .low = std::min(1e-3 * size, brush.radius),
+                   .high = std::max(2 * size, brush.radius),
+                   .reset = rounded(0.35 * size),
+                   .logarithmic = true});
+    if (tool.kind == ToolKind::force) {
+      ui.number_row(
+          "Strength", brush.strength,
+          {.unit = "N/m",
+           .tooltip = "Of the springs that the tool draws by  ·  " + desk.bindings.word_of(Action::brush_strength),
+           .low = std::min(1.0, brush.strength),
+           .high = std::max(1e5, brush.strength),
+           .reset = 2000,
+           .logarithmic = true});
+      ui.number_row("Force limit", brush.largest_force,
+                    {.unit = "N",
+                     .tooltip = "The tool never applies more than this",
+                     .low = std::min(1e-2, brush.largest_force),
+                     .high = std::max(1e6, brush.largest_force),
+                     .reset = 250,
+                     .logarithmic = true});
+    }
+    if (tool.kind == ToolKind::paint) {
+      if (ui.number_row("Factor", brush.amount,
+                        {.unit = "",
+                         .tooltip = "What is painted is so many times as large; inverted, as small",
+                         .low = 1.01,
+                         .high = 1e3,
+                         .reset = 2,
+                         .logarithmic = true}))
+        brush.scales = true;
+    }
+    static const std::vector<std::string> falloffs = choices_of("tool", "falloff");
+    static const std::vector<std::string> axes{"none", "x", "y", "z"};
+    std::size_t falloff = index_of(falloffs, brush.falloff);
+    if (ui.choice_row("Falloff", falloffs, falloff, "How the brush weakens towards its rim"))
+      brush.falloff = falloffs[falloff];
+    std::size_t axis = brush.symmetry == 0 ? 0 : index_of(axes, std::string(1, brush.symmetry));
+    if (ui.choice_row(
+            "Symmetry", axes, axis,
+            "Its mirror image along this axis acts as well  ·  " + desk.bindings.word_of(Action::symmetry)))
+      brush.symmetry = axis == 0 ? '\0' : axes[axis].front();
+    if (tool.kind == ToolKind::force)
+      ui.toggle_row("Keep the shape", desk.settings.keep_shape, desk.tooltip(Action::keep_shape));
+  }
+  ui.section("Under the brush");
+  const Reading& under = desk.reading;
+  const Quantity young = under.there ? shown(under.young_modulus, "Pa") : Quantity{"—", "Pa"};
+  ui.reading_row("Young's modulus", young.number, young.unit, "How stiff the clay is there");
+  ui.reading_row("Strain", under.there && under.strain >= 0 ? shown(100 * under.strain, "%").number : "—", "%",
+                 "How far it is deformed there, as of the last rest");
+  const Quantity felt = under.felt > 0 ? shown(under.felt, "N/m") : Quantity{"—", "N/m"};
+  ui.reading_row("Felt stiffness", felt.number, felt.unit,
+                 "Force of the last stroke over how far the clay went, or what the probe read");
+  ui.section("Force");
+  force_plot(desk, x, width);
+}
+
+void material_panel(Desk& desk) {
+  Ui& ui = *desk.ui;
+  const Snapshot& now = *desk.now;
+  if (!now.scene) {
+    ui.section("Material");
+    ui.note("Material belongs to a solid. Begin with a block, or open a file.");
+    return;
+  }
+  struct Row {
+    sculpt::FieldName field;
+    const char *label, *unit, *help;
+    double low, high;
+    bool logarithmic;
+  };
+  using enum sculpt::FieldName;
+  static constexpr Row k_rows[] = {
+      {young_modulus, "Young's modulus", "Pa", "How stiff: rubber 1 MPa, clay 20 kPa", 1e2, 1e12, true},
+      {poisson_ratio, "Poisson's ratio", "", "How much it grows thin when drawn out; 0.5 keeps its volume", -0.5,
+       0.4999, false},
+      {density, "Density", "kg/m^3", "Mass of a cubic metre; water has 1000", 1, 2e4, true},
+      {damping, "Damping", "1/s", "How fast motion dies out", 0, 50, false},
+      {stiffness_damping, "Damping of strain", "s", "How fast deformation dies out", 0, 1, false}};
+  ui.section("Everywhere");
+  for (const Row& row : k_rows) {
+    const auto index = static_cast<std::size_t>(row.field);
+    const Snapshot::Material& material = now.materials[index];
+    const sculpt::FieldInfo& field = sculpt::field_table()[index];
+    double value = material.mean;
+    const std::string help = std::string(row.help) + (material.uniform ? "" : ". It varies; shown is the mean");
+    if (ui.number_row(row.label, value,
+                      {.unit = row.unit,
+                       .tooltip = help,
+                       .low = std::min(row.low, value),
+                       .high = std::max(row.high, value),
+                       .reset = field.initial,
+                       .logarithmic = row.logarithmic}))
+      desk.run(fmt::format("set {} {}", field.word, value));
+  }
+  ui.section("The solid");
+  const Quantity mass = shown(now.mass, "");
+  ui.reading_row("Mass", mass.number, "kg", "Of the whole solid");
+  ui.reading_row("Volume", shown(1e3 * now.volume, "").number, "l", "Of the solid as it stands");
+  ui.reading_row("Control cells", fmt::format("{}", now.control_cells), "", "Of the solid that is refined");
+  ui.note("Paint stiffness or mass with the tools of the shelf to vary them.");
+}
+
+void physics_panel(Desk& desk) {
+  Ui& ui = *desk.ui;
+  const Snapshot& now = *desk.now;
+  if (!now.scene) {
+    ui.section("Physics");
+    ui.note("Physics acts on a solid. Begin with a block, or open a file.");
+    return;
+  }
+  ui.section("Loads");
+  const Eigen::Vector3d gravity = now.state.loads->gravity;
+  double g[3] = {gravity.x(), gravity.y(), gravity.z()};
+  if (ui.vector_row("Gravity", g,
+                    {.unit = "m/s²", .tooltip = "Acceleration; on earth 0 0 -9.81", .low = -1e3, .high = 1e3}))
+    desk.run(fmt::format("gravity {} {} {}", g[0], g[1], g[2]));
+  ui.reading_row("Held points", fmt::format("{}", now.pinned), "",
+                 "Control points that do not move; paint more with Pin");
+  ui.section("Refinement");
+  double level = now.state.level;
+  if (ui.number_row("Level", level,
+                    {.unit = "",
+                     .tooltip = "How often the control solid is refined; each level is eight times dearer",
+                     .low = 0,
+                     .high = 5,
+                     .reset = 2}) &&
+      std::lround(level) != now.state.level)
+    desk.run(fmt::format("levels {}", std::lround(level)));
+  ui.section("Method");
+  static const auto spaces = choices_of("space", "space"), models = choices_of("model", "model"),
+                    methods = choices_of("integrator", "method");
+  std::size_t space = index_of(spaces, std::string(fem::word(now.state.space)));
+  if (ui.choice_row("Space", spaces, space, "Which functions the solid may move by"))
+    desk.run("space " + spaces[space]);
+  std::size_t model = index_of(models, now.state.model.name);
+  if (ui.choice_row("Model", models, model, "The law of force")) desk.run("model " + models[model]);
+  std::size_t method = index_of(methods, std::string(fem::method_kind(now.state.method).name));
+  if (ui.choice_row("Integrator", methods, method, "How time is stepped"))
+    desk.run("integrator " + methods[method]);
+  bool guard = now.state.guard_on;
+  if (ui.toggle_row("Guard", guard, "Notices what goes wrong in a step and mends it"))
+    desk.run(guard ? "guard on" : "guard off");
+  ui.section("Cost");
+  reading(ui, "Time step", now.state.time_step, "s", "Of the simulation");
+  ui.reading_row("A step takes", desk.virtual_clock || now.steps == 0 ? "—" : fmt::format("{:.1f}", now.step_ms),
+                 "ms", "Mean of the last thirty steps");
+  ui.reading_row("Steps", fmt::format("{}", now.steps), "", "Taken since the session began");
+}
+
+void fields_panel(Desk& desk, const Perform& perform) {
+  Ui& ui = *desk.ui;
+  Settings& s = desk.settings;
+  ui.section("Colours");
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> all{""};
+    for (const std::string& name : sculpt::shown_field_names())
+      if (name != "error") all.push_back(name);
+    return all;
+  }();
+  static const std::vector<std::string> labels = [] {
+    std::vector<std::string> all;
+    for (const std::string& name : words) all.push_back(name.empty() ? "clay" : spaced(name));
+    return all;
+  }();
+  std::size_t field = std::min(index_of(words, s.field), words.size() - 1);
+  if (ui.choice_row("Field", labels, field, desk.tooltip(Action::next_field))) {
+    s.field = words[field];
+    s.fixed_range = false;
+    desk.show();
+  }
+  if (!s.field.empty() && desk.now->scene && desk.now->scene->legend) {
+    const sculpt::SceneLegend& legend = *desk.now->scene->legend;
+    const double factor = legend.unit == "%" ? 100 : 1;
+    if (!s.fixed_range) {
+      s.range_low = legend.low;
+      s.range_high = legend.high;
+    }
+    if (ui.toggle_row("Fixed range", s.fixed_range, "Keeps the range of the colours as it is now")) desk.show();
+    if (s.fixed_range) {
+      double low = factor * s.range_low, high = factor * s.range_high;
+      const NumberStyle style{
+          .unit = legend.unit, .tooltip = "Of the colours", .low = -1e15, .high = 1e15, .reset = 0, .bar = false};
+      if (ui.number_row("From", low, style) && low < high) {
+        s.range_low = low / factor;
+        desk.show();
+      }
+      if (ui.number_row("To", high, style) && low < high) {
+        s.range_high = high / factor;
+        desk.show();
+      }
+    }
+  }
+  ui.section("Lines");
+  ui.toggle_row("Wires of cells", s.wireframe, desk.tooltip(Action::wireframe));
+  if (ui.toggle_row("Finest cells", s.finest_wires,
+                    "Wires of the refined cells too, not only of the control cells"))
+    desk.show();
+  if (ui.toggle_row("Control cage", s.cage, desk.tooltip(Action::cage))) desk.show();
+  ui.section("Cut away");
+  bool cut = s.cut;
+  if (ui.toggle_row("Cut", cut, desk.tooltip(Action::cut_away))) perform(Action::cut_away);
+  if (s.cut) {
+    double at[3] = {s.cut_point.x(), s.cut_point.y(), s.cut_point.z()};
+    double normal[3] = {s.cut_normal.x(), s.cut_normal.y(), s.cut_normal.z()};
+    if (ui.vector_row("Through", at, {.unit = "m", .tooltip = "A point of the plane", .low = -1e9, .high = 1e9})) {
+      s.cut_point = Eigen::Vector3d(at[0], at[1], at[2]);
+      desk.show();
+    }
+    if (ui.vector_row("Normal", normal,
+                      {.unit = "", .tooltip = "Towards what is taken away", .low = -1, .high = 1})) {
+      const Eigen::Vector3d turned(normal[0], normal[1], normal[2]);
+      if (turned.norm() > 1e-6) s.cut_normal = turned.normalized();
+      desk.show();
+    }
+  }
+}
+
+void history_panel(Desk& desk, const Perform& perform, float x, float width) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  ui.section("What was done");
+  const float half = 0.5F * (width - ui.px(8)), y = ui.cursor_y();
+  if (ui.text_button("Undo", {x, y, half, ui.px(28)}, "Undo", false, desk.tooltip(Action::undo)))
+    perform(Action::undo);
+  if (ui.text_button("Redo", {x + half + ui.px(8), y, half, ui.px(28)}, "Redo", false, desk.tooltip(Action::redo)))
+    perform(Action::redo);
+  ui.skip(38);
+  const auto& entries = *desk.now->history;
+  if (entries.empty()) {
+    ui.note("Every stroke and command will be listed here. Together they are the session that is saved.");
+    return;
+  }
+  ImDrawList& draw = ui.list();
+  for (std::size_t k = 0; k < entries.size() && k < 400; ++k) {
+    const HistoryEntry& entry = entries[entries.size() - 1 - k];
+    const Rect row{x, ui.cursor_y(), width, ui.px(26)};
+    ui.skip(26);
+    const bool present = !entry.undone && (k == 0 || entries[entries.size() - k].undone);
+    if (present)
+      draw.AddRectFilled({row.x - ui.px(6), row.y + ui.px(6)}, {row.x - ui.px(3), row.bottom() - ui.px(6)},
+                         t.accent, ui.px(1));
+    const std::size_t blank = std::min(entry.line.find(' '), entry.line.size());
+    const std::string name = entry.line.substr(0, blank), rest = entry.line.substr(blank);
+    const std::string times = entry.times > 1 ? fmt::format("×{}", entry.times) : "";
+    draw.PushClipRect({row.x, row.y}, {row.right() - (times.empty() ? 0 : ui.px(36)), row.bottom()}, true);
+    ui.text(draw, ui.fonts().small_strong, row, entry.undone ? t.faint : t.text, name);
+    const float shift = ui.width_of(ui.fonts().small_strong, name);
+    ui.text(draw, ui.fonts().small, {row.x + shift, row.y, width, row.height},
+            entry.undone ? faded(t.faint, 0.7F) : t.quiet, rest);
+    draw.PopClipRect();
+    ui.text(draw, ui.fonts().small, row, t.faint, times, Side::right);
+    ui.note_control(ControlKind::reading, fmt::format("History {}", k), entry.line, "", row);
+  }
+}
+
+}  // namespace
+
+void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
+  if (!desk.settings.panels) return;
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Rect& place = layout.panel;
+  const float margin = ui.px(16), tabs = ui.px(44);
+  ui.begin_panel("panel", {place.x, place.y, place.width, tabs}, 0, 0);
+  ui.list().AddRectFilled({place.x, place.y}, {place.right(), place.y + tabs}, t.panel, ui.px(k_corner),
+                          ImDrawFlags_RoundCornersTop);
+  float widths[5], sum = 0;
+  for (std::size_t i = 0; i < 5; ++i)
+    sum += widths[i] = ui.width_of(ui.fonts().small_strong, k_panel_names[i]) + ui.px(4);
+  const float gap = (place.width - 2 * margin - sum) / 4;
+  float x = place.x + margin;
+  ui.list().AddRectFilled({place.x + margin, place.y + tabs - ui.px(6)},
+                          {place.right() - margin, place.y + tabs - ui.px(5)}, t.outline);
+  static constexpr const char* k_help[] = {"What the tool does, and what lies under it",
+                                           "Stiffness, density, damping", "Loads, refinement, method",
+                                           "Colours, lines, the cut", "Every line of the session"};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const bool active = static_cast<std::size_t>(desk.settings.panel) == i;
+    if (ui.tab(k_panel_names[i], {x, place.y + ui.px(8), widths[i], tabs - ui.px(13)}, active, k_help[i]))
+      desk.settings.panel = static_cast<Panel>(i);
+    x += widths[i] + gap;
+  }
+  ui.end_panel();
+
+  // As high as what it holds, as of the last frame.
+  const float high = std::min(place.height - tabs, desk.panel_height > 0 ? desk.panel_height : place.height - tabs);
+  const Rect body{place.x, place.y + tabs, place.width, high};
+  ui.begin_panel("panel body", body, 0, 0, true);
+  ui.list().AddRectFilled({body.x, body.y}, {body.right(), body.bottom()}, t.panel, ui.px(k_corner),
+                          ImDrawFlags_RoundCornersBottom);
+  const float left = place.x + margin, width = place.width - 2 * margin;
+  ui.set_cursor(left, body.y + ui.px(2) - ImGui::GetScrollY(), width);
+  switch (desk.settings.panel) {
+    case Panel::tool:
+      tool_panel(desk, left, width);
+      break;
+    case Panel::material:
+      material_panel(desk);
+      break;
+    case Panel::physics:
+      physics_panel(desk);
+      break;
+    case Panel::fields:
+      fields_panel(desk, perform);
+      break;
+    case Panel::history:
+      history_panel(desk, perform, left, width);
+      break;
+  }
+  ui.skip(8);
+  desk.panel_height = ui.cursor_y() + ImGui::GetScrollY() - body.y + ui.px(4);
+  ui.end_panel();
+}
+
+}  // namespace argil::studio

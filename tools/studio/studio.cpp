@@ -1,0 +1,187 @@
+#include "tools/studio/studio.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+
+#include "tools/studio/dialogues.h"
+#include "tools/studio/panels.h"
+#include "tools/studio/ui_renderer.h"
+
+namespace argil::studio {
+
+namespace {
+
+constexpr std::size_t k_plot_points = 400;
+
+// Text fields know keys by Dear ImGui's own numbers.
+constexpr std::array<std::array<int, 2>, 22> k_text_keys{{{ImGuiKey_Tab, key::tab},
+                                                          {ImGuiKey_LeftArrow, key::left},
+                                                          {ImGuiKey_RightArrow, key::right},
+                                                          {ImGuiKey_UpArrow, key::up},
+                                                          {ImGuiKey_DownArrow, key::down},
+                                                          {ImGuiKey_PageUp, key::page_up},
+                                                          {ImGuiKey_PageDown, key::page_down},
+                                                          {ImGuiKey_Home, key::home},
+                                                          {ImGuiKey_End, key::end},
+                                                          {ImGuiKey_Insert, key::insert},
+                                                          {ImGuiKey_Delete, key::del},
+                                                          {ImGuiKey_Backspace, key::backspace},
+                                                          {ImGuiKey_Space, key::space},
+                                                          {ImGuiKey_Enter, key::enter},
+                                                          {ImGuiKey_Escape, key::escape},
+                                                          {ImGuiKey_KeyPadEnter, key::pad_enter},
+                                                          {ImGuiKey_A, 'A'},
+                                                          {ImGuiKey_C, 'C'},
+                                                          {ImGuiKey_V, 'V'},
+                                                          {ImGuiKey_X, 'X'},
+                                                          {ImGuiKey_Y, 'Y'},
+                                                          {ImGuiKey_Z, 'Z'}}};
+
+}  // namespace
+
+Studio::Studio(const view::Gl& gl, Workshop& workshop, const StudioOptions& options)
+    : workshop_(&workshop), context_(ImGui::CreateContext()) {
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.ConfigInputTextCursorBlink = !options.virtual_clock;
+  io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+  for (const auto& pair : k_text_keys) io.KeyMap[pair[0]] = pair[1];
+  const Fonts fonts = load_fonts(options.scale);
+  ui_ = std::make_unique<Ui>(dark_tokens(), fonts, options.scale);
+  apply_style(ui_->tokens(), options.scale);
+  renderer_ = std::make_unique<UiRenderer>(gl);
+  renderer_->load_atlas();
+  viewport_ = std::make_unique<Viewport>(gl);
+  desk_.workshop = workshop_;
+  desk_.ui = ui_.get();
+  desk_.virtual_clock = options.virtual_clock;
+  desk_.card = options.card;
+  desk_.bindings.read(options.keys, "keys");
+  desk_.now = workshop_->latest();
+}
+
+Studio::~Studio() {
+  ImGui::DestroyContext(context_);
+}
+
+void Studio::perform(Action action) {
+  if (action == Action::cancel) {
+    if (desk_.dialogue != Dialogue::none)
+      desk_.dialogue = Dialogue::none;
+    else
+      viewport_->perform(desk_, action);
+    return;
+  }
+  if (viewport_->perform(desk_, action)) return;
+  desk_.perform(action);
+}
+
+void Studio::take_input(const Input& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(input.width), static_cast<float>(input.height)};
+  io.DeltaTime = static_cast<float>(std::max(1e-4, input.seconds));
+  io.MousePos = input.x < 0 ? ImVec2{-FLT_MAX, -FLT_MAX} : ImVec2{input.x, input.y};
+  for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = input.buttons[i];
+  io.MouseWheel = input.wheel;
+  for (const KeyEvent& event : input.keys) {
+    if (event.key > 0 && event.key < 512) io.KeysDown[event.key] = event.down;
+    if (event.key == key::left_control || event.key == key::right_control) control_ = event.down;
+    if (event.key == key::left_shift || event.key == key::right_shift) shift_ = event.down;
+    if (event.key == key::left_alt || event.key == key::right_alt) alt_ = event.down;
+  }
+  io.KeyCtrl = control_;
+  io.KeyShift = shift_;
+  io.KeyAlt = alt_;
+  for (const std::uint32_t c : input.characters) io.AddInputCharacter(c);
+}
+
+void Studio::take_keys(const Input& input) {
+  const bool types = ImGui::GetIO().WantTextInput || ui_->is_editing();
+  for (const KeyEvent& event : input.keys) {
+    if (!event.down) {
+      viewport_->key_released(desk_, event.key);
+      continue;
+    }
+    if (search_key(desk_, event.key, [this](Action action) { perform(action); })) continue;
+    const auto action = desk_.bindings.action_of({event.key, control_, shift_, alt_});
+    if (!action) continue;
+    // A menu that is open goes at any key that means something; Esc means no more than that.
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+      ImGui::ClosePopupToLevel(0, true);
+      if (*action == Action::cancel) continue;
+    }
+    // What is typed is text; but what closes, searches or lets go works from everywhere.
+    const bool always = *action == Action::search || *action == Action::sheet_of_keys ||
+                        *action == Action::forces_off || (*action == Action::cancel && !ui_->is_editing());
+    if (types && !always) continue;
+    if (desk_.dialogue != Dialogue::none && !always) continue;
+    // A stroke under way is ended or taken back before anything else is done.
+    if (viewport_->is_busy() && *action != Action::cancel && *action != Action::forces_off) continue;
+    perform(*action);
+  }
+}
+
+void Studio::frame(const Input& input) {
+  input_ = input;
+  workshop_->frame_begins();
+  ImGui::SetCurrentContext(context_);
+  desk_.now = workshop_->latest();
+  desk_.follow_solid();
+  desk_.time += input.seconds;
+  desk_.frame_ms += 0.1 * (1e3 * input.seconds - desk_.frame_ms);
+  desk_.frames_a_second = desk_.frame_ms > 0 ? 1e3 / desk_.frame_ms : 0;
+  if (!desk_.now->messages.empty() && desk_.now->messages.back().number != desk_.seen_message) {
+    desk_.seen_message = desk_.now->messages.back().number;
+    desk_.message_since = desk_.time;
+  }
+  if (desk_.now->stroke) {
+    desk_.force_plot.push_back(static_cast<float>(desk_.now->stroke->force.norm()));
+    if (desk_.force_plot.size() > k_plot_points) desk_.force_plot.erase(desk_.force_plot.begin());
+    if (desk_.now->stroke->felt > 0) desk_.reading.felt = desk_.now->stroke->felt;
+  }
+  const Tokens& tokens = desk_.settings.light ? light_tokens() : dark_tokens();
+  if (&tokens != &ui_->tokens()) {
+    ui_->set_tokens(tokens);
+    apply_style(tokens, ui_->scale());
+  }
+
+  take_input(input);
+  ImGui::NewFrame();
+  ui_->begin_frame();
+  const Layout layout = lay_out(desk_, input.width, input.height);
+  const Perform perform_here = [this](Action action) { perform(action); };
+  take_keys(input);
+  for (const auto& file : input.dropped) workshop_->post([file](Bench& bench) { bench.open(file); });
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool over_ui =
+      !viewport_->is_busy() && (io.WantCaptureMouse || desk_.dialogue != Dialogue::none || input.x < 0);
+  viewport_->camera_window(input.width, input.height, layout.free);
+  viewport_->handle(desk_, input, control_, shift_, over_ui);
+
+  viewport_->draw_marks(desk_);
+  draw_menu(desk_, layout, perform_here);
+  draw_shelf(desk_, layout);
+  draw_legend(desk_, layout);
+  draw_panels(desk_, layout, perform_here);
+  draw_timeline(desk_, layout, perform_here);
+  draw_status(desk_, layout);
+  draw_hints(desk_, layout, perform_here);
+  draw_dialogues(desk_, layout, perform_here, input.width, input.height);
+  ui_->end_frame();
+  ImGui::Render();
+  workshop_->frame_ends();
+}
+
+void Studio::draw(unsigned framebuffer) {
+  ImGui::SetCurrentContext(context_);
+  viewport_->draw(desk_, input_, framebuffer);
+  renderer_->draw(*ImGui::GetDrawData());
+}
+
+}  // namespace argil::studio

@@ -1,0 +1,30 @@
+#pragma once
+// Draws what Dear ImGui made with our own table of OpenGL functions, so that the same code serves a window and
+// OSMesa (the library's own backend loads libGL itself and cannot start there).
+
+#include <memory>
+
+#include "tools/view/gl_objects.h"
+
+struct ImDrawData;
+
+namespace argil::studio {
+
+class UiRenderer {
+ public:
+  /// `gl` must outlive it and be current whenever a function is called.
+  explicit UiRenderer(const view::Gl& gl);
+  ~UiRenderer();
+
+  /// Takes the atlas of the current Dear ImGui context to the graphics card.
+  void load_atlas();
+  /// Into the bound framebuffer.
+  void draw(const ImDrawData& data) const;
+
+ private:
+  const view::Gl* gl_;
+  view::Program program_;
+  GLuint array_ = 0, vertices_ = 0, indices_ = 0, atlas_ = 0;
+};
+
+}  // namespace argil::studio

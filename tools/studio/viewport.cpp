@@ -1,0 +1,285 @@
+#include "tools/studio/viewport.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace argil::studio {
+
+namespace {
+
+std::string place_words(const Eigen::Vector3d& p) {
+  return fmt::format("{} {} {}", p.x(), p.y(), p.z());
+}
+
+}  // namespace
+
+Viewport::Viewport(const view::Gl& gl) : gl_(&gl), painter_(gl) {}
+
+Box Viewport::box_of(const Snapshot& now) const {
+  return {now.low, now.high};
+}
+
+bool Viewport::perform(Desk& desk, Action action) {
+  switch (action) {
+    case Action::frame_all:
+      if (desk.now->scene) camera_.frame(box_of(*desk.now));
+      return true;
+    case Action::from_front:
+      camera_.look_from(-M_PI / 2, 0);
+      return true;
+    case Action::from_side:
+      camera_.look_from(0, 0);
+      return true;
+    case Action::from_top:
+      camera_.look_from(-M_PI / 2, M_PI / 2);
+      return true;
+    case Action::cut_away: {
+      Settings& settings = desk.settings;
+      settings.cut = !settings.cut;
+      if (settings.cut) {
+        // Along the axis that is looked along, so that the inside shows.
+        const Eigen::Vector3d eye = camera_.towards_eye();
+        Eigen::Index axis = 0;
+        eye.cwiseAbs().maxCoeff(&axis);
+        settings.cut_normal = Eigen::Vector3d::Zero();
+        settings.cut_normal[axis] = eye[axis] < 0 ? -1 : 1;
+        settings.cut_point = box_of(*desk.now).middle();
+      }
+      desk.show();
+      return true;
+    }
+    case Action::brush_radius:
+    case Action::brush_strength:
+      if (drag_ != Drag::none || !desk.now->scene) return true;
+      drag_ = action == Action::brush_radius ? Drag::radius : Drag::strength;
+      brush_start_ = brush_now_ = action == Action::brush_radius ? desk.brush.radius : desk.brush.strength;
+      pressed_x_ = x_;
+      pressed_y_ = y_;
+      return true;
+    case Action::cancel:
+      if (drag_ == Drag::none) return false;
+      cancel(desk);
+      return true;
+    case Action::forces_off:
+      cancel(desk);
+      return false;
+    default:
+      return false;
+  }
+}
+
+void Viewport::key_released(Desk& desk, int released) {
+  const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
+  const Action action = drag_ == Drag::radius ? Action::brush_radius : Action::brush_strength;
+  if (sizes && released == desk.bindings.key_of(action).key && x_ != pressed_x_) release(desk);
+}
+
+void Viewport::update_hover(Desk& desk, bool over_ui) {
+  hover_.reset();
+  cannot_.clear();
+  const Snapshot& now = *desk.now;
+  const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
+  if (!now.scene || over_ui || !now.scene->draw_surface || (drag_ != Drag::none && !sizes)) return;
+  const Ray ray = sizes ? camera_.ray(pressed_x_, pressed_y_) : camera_.ray(x_, y_);
+  hover_ = pick(now.scene->surface, ray);
+  Reading& reading = desk.reading;
+  reading.there = hover_.has_value();
+  if (!hover_) return;
+  reading.at = hover_->at;
+  const std::size_t vertices = now.scene->surface.positions.size();
+  if (now.young_modulus.size() == vertices)
+    reading.young_modulus = value_at(now.scene->surface, now.young_modulus, *hover_);
+  reading.strain = now.strain.size() == vertices ? value_at(now.scene->surface, now.strain, *hover_) : -1;
+}
+
+Eigen::Vector3d Viewport::on_stroke_plane(double x, double y) const {
+  const Ray ray = camera_.ray(x, y);
+  const Eigen::Vector3d normal = camera_.towards_eye();
+  const Eigen::Vector3d origin = grip_ + depth_ * normal;
+  const double facing = normal.dot(ray.direction);
+  if (std::abs(facing) < 1e-6) return device_;
+  return ray.origin + normal.dot(origin - ray.origin) / facing * ray.direction;
+}
+
+void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
+  pressed_x_ = x_;
+  pressed_y_ = y_;
+  const Settings& settings = desk.settings;
+  if (settings.cut && desk.now->scene) {
+    const Eigen::Vector2d handle = camera_.pixel(settings.cut_point);
+    if ((handle - Eigen::Vector2d(x_, y_)).norm() < desk.ui->px(12)) {
+      drag_ = Drag::plane;
+      return;
+    }
+  }
+  if (!hover_) {
+    drag_ = Drag::orbit;
+    return;
+  }
+  grip_ = device_ = hover_->at;
+  grip_normal_ = hover_->normal;
+  depth_ = 0;
+  switch (desk.tool().kind) {
+    case ToolKind::extrude:
+      drag_ = Drag::extrude;
+      break;
+    default: {
+      drag_ = Drag::stroke;
+      desk.force_plot.clear();
+      StrokeStart start;
+      start.pose.position = hover_->at;
+      start.pose.pressure = input.pressure;
+      start.tool = desk.brush;
+      start.options.invert = control;
+      start.options.smoothing = shift && desk.tool().kind == ToolKind::force;
+      start.options.inside = hover_->cut;
+      desk.workshop->begin_stroke(start);
+      break;
+    }
+  }
+}
+
+// A force tool goes with the pointer through space, by the plane through where it took hold; a brush that lays
+// something on the clay goes over its surface.
+void Viewport::move_device(Desk& desk, double pressure) {
+  device_ = on_stroke_plane(x_, y_);
+  if (desk.tool().kind != ToolKind::force && desk.now->scene)
+    if (const auto hit = pick(desk.now->scene->surface, camera_.ray(x_, y_))) device_ = hit->at;
+  sculpt::StrokePose pose;
+  pose.position = device_;
+  pose.pressure = pressure;
+  desk.workshop->move_device(pose);
+}
+
+void Viewport::move_plane(Desk& desk, double distance) {
+  Settings& settings = desk.settings;
+  const Box box = box_of(*desk.now);
+  const double low = std::min(settings.cut_normal.dot(box.low), settings.cut_normal.dot(box.high));
+  const double high = std::max(settings.cut_normal.dot(box.low), settings.cut_normal.dot(box.high));
+  const double at = settings.cut_normal.dot(settings.cut_point);
+  settings.cut_point += settings.cut_normal * (std::clamp(at + distance, low, high) - at);
+  desk.show();
+}
+
+void Viewport::drag(Desk& desk, const Input& input, bool shift) {
+  const double right = x_ - last_x_, up = last_y_ - y_;
+  switch (drag_) {
+    case Drag::orbit:
+      camera_.orbit(right, up);
+      break;
+    case Drag::pan:
+      camera_.pan(right, up);
+      break;
+    case Drag::stroke:
+      move_device(desk, input.pressure);
+      break;
+    case Drag::extrude:
+      device_ = on_stroke_plane(x_, y_);
+      break;
+    case Drag::plane: {
+      const Eigen::Vector3d& normal = desk.settings.cut_normal;
+      const Eigen::Vector2d from = camera_.pixel(desk.settings.cut_point),
+                            to = camera_.pixel(desk.settings.cut_point +
+                                               100 * camera_.pixel_size(desk.settings.cut_point) * normal);
+      const Eigen::Vector2d along = (to - from) / 100;  // pixels a pixel's length of the normal
+      const double length = std::max(along.squaredNorm(), 0.02);
+      const double way = along.dot(Eigen::Vector2d(right, -up)) / length;
+      move_plane(desk, way * camera_.pixel_size(desk.settings.cut_point));
+      break;
+    }
+    case Drag::radius: {
+      const double size = hover_ ? camera_.pixel_size(hover_->at) : camera_.pixel_size(camera_.pivot());
+      brush_now_ = std::max(2 * size, brush_start_ + (x_ - pressed_x_) * size * (shift ? 0.2 : 1));
+      break;
+    }
+    case Drag::strength:
+      brush_now_ = brush_start_ * std::exp((x_ - pressed_x_) / desk.ui->px(shift ? 600 : 150));
+      break;
+    case Drag::none:
+      break;
+  }
+}
+
+void Viewport::release(Desk& desk) {
+  const Drag was = std::exchange(drag_, Drag::none);
+  switch (was) {
+    case Drag::stroke:
+      desk.workshop->end_stroke(desk.settings.keep_shape && desk.tool().kind == ToolKind::force);
+      break;
+    case Drag::extrude: {
+      const double distance = (device_ - grip_).dot(grip_normal_);
+      const Eigen::Vector3d eye = camera_.eye(), direction = (grip_ - eye).normalized();
+      if (std::abs(distance) < 1e-3 * box_of(*desk.now).radius()) break;
+      desk.workshop->run_together({fmt::format("select faces ray {} {}", place_words(eye), place_words(direction)),
+                                   fmt::format("extrude {}", distance)});
+      break;
+    }
+    case Drag::radius:
+    case Drag::strength: {
+      const double digits = std::pow(10.0, std::floor(std::log10(brush_now_)) - 2);
+      const double value = std::round(brush_now_ / digits) * digits;
+      (was == Drag::radius ? desk.brush.radius : desk.brush.strength) = value;
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+void Viewport::cancel(Desk& desk) {
+  if (drag_ == Drag::stroke) desk.workshop->cancel_stroke();
+  drag_ = Drag::none;
+}
+
+void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, bool over_ui) {
+  last_x_ = x_;
+  last_y_ = y_;
+  x_ = input.x;
+  y_ = input.y;
+  inverts_ = control;
+  if (desk.now->scene && desk.now->solid_number != framed_solid_) {
+    camera_.frame(box_of(*desk.now));
+    camera_.arrive();
+    framed_solid_ = desk.now->solid_number;
+  }
+  camera_.advance(input.seconds);
+  update_hover(desk, over_ui);
+
+  const bool pressed_left = input.buttons[0] && !left_, released_left = !input.buttons[0] && left_;
+  const bool pressed_middle = input.buttons[2] && !middle_, released_middle = !input.buttons[2] && middle_;
+  const bool pressed_right = input.buttons[1] && !right_;
+  left_ = input.buttons[0];
+  right_ = input.buttons[1];
+  middle_ = input.buttons[2];
+
+  const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
+  if (sizes && pressed_left) {
+    release(desk);
+  } else if (sizes && pressed_right) {
+    drag_ = Drag::none;
+  } else if (drag_ == Drag::none && !over_ui) {
+    if (pressed_left) press(desk, input, control, shift);
+    if (pressed_middle) drag_ = shift ? Drag::pan : Drag::orbit;
+  } else if (drag_ != Drag::none && (x_ != last_x_ || y_ != last_y_)) {
+    drag(desk, input, shift);
+  }
+  if (drag_ != Drag::none && !sizes &&
+      (released_left || (released_middle && (drag_ == Drag::orbit || drag_ == Drag::pan))))
+    release(desk);
+
+  if (input.wheel != 0 && !over_ui) {
+    if (drag_ == Drag::stroke) {
+      depth_ += 12 * input.wheel * camera_.pixel_size(grip_);
+      move_device(desk, input.pressure);
+    } else if (desk.settings.cut && !control) {
+      move_plane(desk, -0.02 * input.wheel * 2 * box_of(*desk.now).radius());
+    } else {
+      camera_.zoom(input.wheel);
+    }
+  }
+}
+
+}  // namespace argil::studio

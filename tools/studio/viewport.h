@@ -1,0 +1,70 @@
+#pragma once
+// The solid in the window: drawn, looked at from all sides, touched. What the pointer does there becomes orders of
+// the workshop; what is only looked at (camera, brush under the pointer) stays here.
+
+#include <memory>
+#include <optional>
+
+#include "tools/studio/desk.h"
+#include "tools/studio/input.h"
+#include "tools/studio/picking.h"
+#include "tools/view/scene_painter.h"
+
+namespace argil::studio {
+
+class Viewport {
+ public:
+  explicit Viewport(const view::Gl& gl);
+
+  /// The window in pixels and its part that no panel covers.
+  void camera_window(int width, int height, const Rect& free) { camera_.set_window(width, height, free); }
+  /// Keys of the camera and the brush. True if it was one of them.
+  bool perform(Desk& desk, Action action);
+  void key_released(Desk& desk, int key);
+  /// The pointer, wheel and buttons; `over_ui`: a control has them.
+  void handle(Desk& desk, const Input& input, bool control, bool shift, bool over_ui);
+  /// Takes what the snapshot has new to the graphics card and draws into the framebuffer of this name.
+  void draw(const Desk& desk, const Input& input, unsigned framebuffer);
+  /// What lies over the picture: numbers at the arrow, the plane's handle, why a tool cannot act.
+  void draw_marks(Desk& desk);
+
+  const OrbitCamera& camera() const { return camera_; }
+  bool is_busy() const { return drag_ != Drag::none; }
+
+ private:
+  enum class Drag { none, stroke, extrude, orbit, pan, plane, radius, strength };
+  void press(Desk& desk, const Input& input, bool control, bool shift);
+  void drag(Desk& desk, const Input& input, bool shift);
+  void release(Desk& desk);
+  void cancel(Desk& desk);
+  void move_device(Desk& desk, double pressure);
+  void move_plane(Desk& desk, double distance);
+  void update_hover(Desk& desk, bool over_ui);
+  Eigen::Vector3d on_stroke_plane(double x, double y) const;
+  Box box_of(const Snapshot& now) const;
+
+  const view::Gl* gl_;
+  view::ScenePainter painter_;
+  std::unique_ptr<view::SampledTarget> target_;
+  view::Place place_;
+  OrbitCamera camera_;
+  std::uint64_t layout_ = 0, version_ = 0;
+  std::uint64_t framed_solid_ = 0;  // the one that the camera was last placed for
+  std::shared_ptr<const sculpt::Scene> loaded_;
+  std::vector<float> drawn_;  // all that the picture in target_ depends on but for the scene
+  bool scene_changed_ = true;
+
+  std::optional<Hit> hover_;
+  Drag drag_ = Drag::none;
+  double x_ = 0, y_ = 0, last_x_ = 0, last_y_ = 0, pressed_x_ = 0, pressed_y_ = 0;
+  bool left_ = false, middle_ = false, right_ = false;
+  bool inverts_ = false;
+  // A stroke.
+  Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_, grip_normal_ = grip_;
+  double depth_ = 0;  // towards the eye, by the wheel
+  // The brush while it is sized.
+  double brush_start_ = 0, brush_now_ = 0;
+  std::string cannot_;  // why, at the pointer
+};
+
+}  // namespace argil::studio

@@ -1,0 +1,198 @@
+// Of viewport.h: what is drawn.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/studio/quantity.h"
+#include "tools/studio/viewport.h"
+
+namespace argil::studio {
+
+namespace {
+
+constexpr int k_samples = 4;
+constexpr double k_longest_arrow = 0.3;  // of the solid's radius, at the force limit or where the force is large
+
+}  // namespace
+
+void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) {
+  const Snapshot& now = *desk.now;
+  const Settings& settings = desk.settings;
+  if (!target_ || target_->width() != input.width || target_->height() != input.height) {
+    scene_changed_ = true;
+    target_ = std::make_unique<view::SampledTarget>(*gl_, input.width, input.height, k_samples);
+  }
+
+  if (now.version != version_ || layout_ == 0 || !loaded_ != !now.scene) {
+    static const sculpt::Scene k_nothing;
+    const sculpt::Scene& scene = now.scene ? *now.scene : k_nothing;
+    if (layout_ == 0 || now.layout != layout_ || !loaded_ != !now.scene) {
+      // Coordinates of the picture stay while the solid is of about the same size, so that nothing swims.
+      const Box box = box_of(now);
+      if (layout_ == 0 || !(box.radius() < 2 * place_.radius && box.radius() > 0.3 * place_.radius))
+        place_ = view::place_of(scene.surface.positions);
+      painter_.load(scene, place_, {.wireframe = settings.wireframe, .light_theme = settings.light});
+    } else if (now.scene != loaded_ || now.shade_again) {
+      painter_.move(scene, place_, now.shade_again);
+    }
+    scene_changed_ = scene_changed_ || layout_ != now.layout || now.scene != loaded_ || now.shade_again;
+    layout_ = std::max<std::uint64_t>(1, now.layout);
+    version_ = now.version;
+    loaded_ = now.scene;
+  }
+  painter_.set_look(settings.wireframe, settings.light, false);
+
+  // The force, where it holds the solid.
+  const Tokens& t = desk.ui->tokens();
+  std::vector<sculpt::SceneArrow> arrows;
+  view::Colour arrow_tint = colour_of(t.accent);
+  if (now.stroke && now.stroke->force.norm() > 0) {
+    const double most =
+        now.tool.largest_force < 1e5 ? now.tool.largest_force : now.tool.strength * 0.5 * box_of(now).radius();
+    const double share = now.stroke->force.norm() / std::max(1e-12, most);
+    const double length = k_longest_arrow * place_.radius * 2 * std::min(1.0, std::sqrt(share));
+    const Eigen::Vector3d tip = now.stroke->held + length * now.stroke->force.normalized();
+    arrows.push_back({place_(now.stroke->held.cast<float>()), place_(tip.cast<float>())});
+    if (now.stroke->at_limit) arrow_tint = colour_of(t.warning);
+  } else if (now.scene) {
+    for (const sculpt::SceneArrow& arrow : now.scene->arrows)
+      arrows.push_back({place_(arrow.from), place_(arrow.to)});
+  }
+
+  // The brush, on the surface itself.
+  view::BrushMark mark;
+  const bool shows_brush = now.scene && desk.tool().kind != ToolKind::extrude;
+  const double radius = drag_ == Drag::radius ? brush_now_ : desk.brush.radius;
+  mark.radius = static_cast<float>(radius / place_.radius);
+  mark.falloff = desk.brush.falloff == "linear" ? 1 : desk.brush.falloff == "constant" ? 2 : 0;
+  Ink tint = inverts_ ? t.mark : t.accent;
+  if (shows_brush && now.stroke) {
+    if (now.stroke->at_limit) tint = t.warning;
+    mark.middles = {place_(now.stroke->held.cast<float>())};
+  } else if (shows_brush && hover_) {
+    mark.middles = {place_(hover_->at.cast<float>())};
+    if (desk.brush.symmetry != 0) {
+      const int axis = desk.brush.symmetry - 'x';
+      Eigen::Vector3d other = hover_->at;
+      other[axis] = 2 * now.rest_middle[axis] - other[axis];
+      mark.middles.push_back(place_(other.cast<float>()));
+    }
+  }
+  mark.tint = colour_of(tint);
+
+  Box box = box_of(now);
+  if (now.stroke) {
+    const Eigen::Vector3d reach = now.stroke->held + now.stroke->force.normalized() * place_.radius;
+    if (reach.allFinite()) box = {box.low.cwiseMin(reach), box.high.cwiseMax(reach)};
+  }
+  // Where nothing moved, the picture of before is taken again.
+  const view::Camera camera = camera_.camera(place_, box);
+  std::vector<float> drawn(camera.clip_from_world.data(), camera.clip_from_world.data() + 16);
+  for (const Eigen::Vector3f& middle : mark.middles) drawn.insert(drawn.end(), middle.data(), middle.data() + 3);
+  for (const sculpt::SceneArrow& arrow : arrows) {
+    drawn.insert(drawn.end(), arrow.from.data(), arrow.from.data() + 3);
+    drawn.insert(drawn.end(), arrow.to.data(), arrow.to.data() + 3);
+  }
+  for (const double value :
+       {static_cast<double>(mark.radius), static_cast<double>(mark.falloff), static_cast<double>(mark.tint.red),
+        static_cast<double>(arrow_tint.red), settings.wireframe ? 1.0 : 0.0, settings.light ? 1.0 : 0.0})
+    drawn.push_back(static_cast<float>(value));
+  if (!scene_changed_ && drawn == drawn_) {
+    target_->resolve(framebuffer);
+    return;
+  }
+  painter_.set_brush(std::move(mark));
+  painter_.set_arrows(std::move(arrows), arrow_tint);
+  drawn_ = std::move(drawn);
+  scene_changed_ = false;
+  target_->bind();
+  const view::Sampling sampling{input.width, input.height, 1, input.scale};
+  painter_.paint(camera, sampling, 0, 0);
+  target_->resolve(framebuffer);
+}
+
+void Viewport::draw_marks(Desk& desk) {
+  Ui& ui = *desk.ui;
+  const Tokens& t = ui.tokens();
+  const Snapshot& now = *desk.now;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const auto label = [&](Eigen::Vector2d at, const std::string& line, Ink colour) {
+    const float width = ui.width_of(ui.fonts().small_strong, line) + ui.px(14), height = ui.px(22);
+    const Rect place{static_cast<float>(at.x()), static_cast<float>(at.y()) - 0.5F * height, width, height};
+    ui.box(draw, place, faded(t.panel, 0.92F), 4);
+    ui.text(draw, ui.fonts().small_strong, place, colour, line, Side::centre);
+  };
+  const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ink colour, float width) {
+    const Eigen::Vector2d from = camera_.pixel(a), to = camera_.pixel(b);
+    draw.AddLine({static_cast<float>(from.x()), static_cast<float>(from.y())},
+                 {static_cast<float>(to.x()), static_cast<float>(to.y())}, colour, ui.px(width));
+  };
+
+  if (desk.brush.symmetry != 0 && now.scene) {
+    const int axis = desk.brush.symmetry - 'x';
+    const Box box = box_of(now);
+    const Eigen::Vector3d half = 0.58 * (box.high - box.low);
+    Eigen::Vector3d middle = box.middle();
+    middle[axis] = now.rest_middle[axis];
+    const Eigen::Vector3d u = Eigen::Vector3d::Unit((axis + 1) % 3) * half[(axis + 1) % 3],
+                          v = Eigen::Vector3d::Unit((axis + 2) % 3) * half[(axis + 2) % 3];
+    const Eigen::Vector3d corners[] = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], faded(t.mark, 0.55F), 1);
+  }
+  if (desk.settings.cut && now.scene) {
+    const Settings& s = desk.settings;
+    const Box box = box_of(now);
+    Eigen::Index axis = 0;
+    s.cut_normal.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Vector3d side = Eigen::Vector3d::Unit((axis + 1) % 3),
+                          other = Eigen::Vector3d::Unit((axis + 2) % 3);
+    const Eigen::Vector3d half = 0.56 * (box.high - box.low);
+    const double u = half.dot(side), v = half.dot(other);
+    const Eigen::Vector3d& p = s.cut_point;
+    const Eigen::Vector3d corners[] = {p - u * side - v * other, p + u * side - v * other, p + u * side + v * other,
+                                       p - u * side + v * other};
+    for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], faded(t.mark, 0.6F), 1);
+    const Eigen::Vector3d tip = p + 0.16 * box.radius() * s.cut_normal;
+    line(p, tip, t.mark, 2);
+    const Eigen::Vector2d handle = camera_.pixel(p);
+    const ImVec2 at{static_cast<float>(handle.x()), static_cast<float>(handle.y())};
+    draw.AddCircleFilled(at, ui.px(7), t.panel, 24);
+    draw.AddCircleFilled(at, ui.px(5), t.mark, 24);
+    ui.note_control(ControlKind::button, "Handle of the cut",
+                    "Drag it along the arrow, or turn the wheel, to move the plane", "",
+                    {at.x - ui.px(9), at.y - ui.px(9), ui.px(18), ui.px(18)});
+  }
+
+  const auto shift = [&](const Eigen::Vector3d& at, double right, double down) {
+    return Eigen::Vector2d(camera_.pixel(at) +
+                           Eigen::Vector2d(ui.px(static_cast<float>(right)), ui.px(static_cast<float>(down))));
+  };
+  if (now.stroke && now.stroke->force.norm() > 0) {
+    const Quantity force = shown(now.stroke->force.norm(), "N");
+    label(Eigen::Vector2d(x_ + ui.px(18), y_ - ui.px(14)), force.number + ' ' + force.unit,
+          now.stroke->at_limit ? t.warning : t.accent);
+  }
+  if (drag_ == Drag::radius || drag_ == Drag::strength) {
+    const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");
+    label(Eigen::Vector2d(x_ + ui.px(18), y_), size.number + ' ' + size.unit, t.accent);
+  }
+  if (drag_ == Drag::extrude) {
+    const double distance = (device_ - grip_).dot(grip_normal_);
+    const Eigen::Vector3d tip = grip_ + distance * grip_normal_;
+    line(grip_, tip, t.accent, 2);
+    const Quantity length = shown(distance, "m");
+    label(shift(tip, 10, 0), length.number + ' ' + length.unit, t.accent);
+  }
+  if (desk.tool().kind == ToolKind::probe && hover_ && drag_ == Drag::none) {
+    const Quantity young = shown(desk.reading.young_modulus, "Pa");
+    std::string words = young.number + ' ' + young.unit;
+    if (desk.reading.strain >= 0) words += "  ·  " + shown(100 * desk.reading.strain, "%").number + " %";
+    label(Eigen::Vector2d(x_ + ui.px(16), y_), words, t.text);
+  }
+}
+
+}  // namespace argil::studio

@@ -1,0 +1,19 @@
+#pragma once
+// The studio on a display, by GLFW: real time, the simulation in its own thread.
+
+#include <filesystem>
+
+#include "tools/studio/bench.h"
+
+namespace argil::studio {
+
+struct WindowOptions {
+  BenchOptions bench;
+  std::filesystem::path file;  // empty: a block
+  std::filesystem::path keys;  // the sculptor's own; empty or not there: those of the table
+};
+
+/// Runs until the window is closed. @throws Error (unsupported) where there is no display or no OpenGL 3.3.
+void run_window(const WindowOptions& options);
+
+}  // namespace argil::studio
