@@ -69,8 +69,9 @@ TEST(Stroke, ALineNamesOnlyWhatStepsSaw) {
   for (int tick = 1; tick <= 45; ++tick)
     steps += stroke.tick({{0.15, 0.15, 0.18 + tick / 1024.0}, Eigen::Quaterniond::Identity(), 1});
   EXPECT_EQ(steps, 2);
-  EXPECT_EQ(stroke.finish(),
-            "stroke path 0 0.15 0.15 0.18 20 0.15 0.15 0.19953125 40 0.15 0.15 0.2190625 45 0.15 0.15 0.2239453125");
+  EXPECT_EQ(
+      stroke.finish(),
+      "stroke path 0 0.15 0.15 0.18 20 0.15 0.15 0.19953125 40 0.15 0.15 0.2190625 45 0.15 0.15 0.2239453125");
 }
 
 TEST(Stroke, CancelledItNeverWas) {
