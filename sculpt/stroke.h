@@ -83,7 +83,7 @@ class Stroke {
   int mirror_ = -1;  // axis that a mirror image acts along; −1: none
   double plane_ = 0;
   std::vector<std::unique_ptr<ForceTool>> tools_;  // the device's own first, then its mirror image's
-  std::vector<std::unique_ptr<Painting>> paintings_;
+  std::unique_ptr<Painting> painting_;
   std::unique_ptr<Probe> probe_;
   std::optional<ProbeReading> reading_;
   double softest_ = 0, stiffest_ = 0;    // readings so far [N/m]
