@@ -51,7 +51,6 @@ void Bench::begin_session(const std::filesystem::path& read_root) {
   session_ = std::make_unique<sculpt::Session>(std::move(session));
   marks_.clear();
   history_.clear();
-  stroke_times_.clear();
   file_.clear();
   lines_ = saved_lines_ = 0;
   playing_ = played_last_ = false;
@@ -81,7 +80,7 @@ void Bench::remember(const std::string& line, std::size_t depth_before, bool rep
     history_.back().depth = depth;
     ++history_.back().times;
   } else {
-    history_.push_back({line, depth, 1, false});
+    history_.push_back({.line = line, .depth = depth});
   }
   history_changed_ = true;
   ++lines_;
@@ -270,7 +269,7 @@ void Bench::end_stroke(bool keep) {
     session_->adopt_line(line);
     const double time = session_->document().state().motion->time;
     remember(line, depth, false);
-    if (stroke_times_.empty() || stroke_times_.back() < time) stroke_times_.push_back(time);
+    history_.back().stroke_end = time;
     const bool moved =
         session_->undo_depth() > depth && session_->document().state().motion->velocities.squaredNorm() > 0;
     if (keep && moved) run_one("commit");

@@ -300,7 +300,7 @@ void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
   ui.text(draw, ui.fonts().small, {x, place.y, ui.px(64), place.height}, t.quiet, here);
   ui.note_control(ControlKind::reading, "Time", "Time of the simulation", "s", {x, y, ui.px(64), size});
   double last = std::max(1.0, time);
-  for (const double stroke : now.stroke_times) last = std::max(last, stroke);
+  for (const HistoryEntry& entry : *now.history) last = std::max(last, entry.stroke_end);
   last = std::ceil(last * 1.25);
   const std::string end = fmt::format("{:.0f} s", last);
   const float end_width = ui.width_of(ui.fonts().small, end);
@@ -314,8 +314,10 @@ void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
   ui.box(draw, {left, middle - ui.px(2.5F), right - left, ui.px(5)}, t.outline, 2.5F);
   if (time > 0)
     ui.box(draw, {left, middle - ui.px(2.5F), std::max(ui.px(5), at(time) - left), ui.px(5)}, t.accent, 2.5F);
-  for (const double stroke : now.stroke_times)
-    ui.box(draw, {at(stroke) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)}, t.mark, 1.5F);
+  for (const HistoryEntry& entry : *now.history)
+    if (entry.stroke_end >= 0)
+      ui.box(draw, {at(entry.stroke_end) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)},
+             entry.undone ? t.faint : t.mark, 1.5F);
   draw.AddCircleFilled({at(time), middle}, ui.px(6), t.accent, 24);
   ui.note_control(ControlKind::reading, "Timeline", "How far time has gone; marks stand where strokes ended", "s",
                   {left, y, right - left, size});
