@@ -19,7 +19,7 @@ constexpr std::size_t k_messages = 40;
 
 const std::vector<std::string>& block_lines() {
   // Soft clay of 0.5 m: stiff enough to stand, soft enough that a hand's width of travel shows.
-  static const std::vector<std::string> lines{"new box 4 4 4 size 0.5 0.5 0.5 at -0.25 -0.25 0",
+  static const std::vector<std::string> lines{"new box 3 3 3 size 0.5 0.5 0.5 at -0.25 -0.25 0",
                                               "levels 2",
                                               "set young_modulus 2e4",
                                               "set density 300",

@@ -215,16 +215,20 @@ void draw_menu(Desk& desk, const Layout& layout, const Perform& perform) {
 void draw_shelf(Desk& desk, const Layout& layout) {
   if (!desk.settings.panels) return;
   Ui& ui = *desk.ui;
-  const float cell = ui.px(36), step = ui.px(40), margin = ui.px(4), line = ui.px(9);
+  const float margin = ui.px(4), line = ui.px(9);
   const auto& tools = shelf_tools();
+  // In a low window the tools stand closer.
+  const float room = layout.shelf.height - 2 * margin - 4 * line;
+  const float step = std::min(ui.px(40), room / static_cast<float>(tools.size()));
+  const float cell = step - margin, width = ui.px(36);
   float height = 2 * margin;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i > 0 && parted(tools[i - 1], tools[i])) height += line;
     height += i + 1 < tools.size() ? step : cell;
   }
   const Rect place{layout.shelf.x, layout.shelf.y, layout.shelf.width, std::min(height, layout.shelf.height)};
-  ui.begin_panel("shelf", place, ui.tokens().panel, k_corner, true);
-  float y = place.y + margin - ImGui::GetScrollY();
+  ui.begin_panel("shelf", place, ui.tokens().panel, k_corner);
+  float y = place.y + margin;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i > 0 && parted(tools[i - 1], tools[i])) {
       ui.list().AddRectFilled({place.x + ui.px(9), y + ui.px(1)}, {place.right() - ui.px(9), y + ui.px(2)},
@@ -234,12 +238,12 @@ void draw_shelf(Desk& desk, const Layout& layout) {
     std::string tooltip = std::string(tools[i].label) + ": " + tools[i].help;
     if (i < 9)
       tooltip += "  ·  " + desk.bindings.word_of(static_cast<Action>(static_cast<std::size_t>(Action::tool_1) + i));
-    if (ui.icon_button(tools[i].label, {place.x + margin, y, cell, cell}, tools[i].icon, i == desk.settings.tool,
+    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon, i == desk.settings.tool,
                        tooltip))
       desk.take_tool(i);
     y += step;
   }
-  ui.set_cursor(place.x, y - (step - cell), place.width);
+  ui.set_cursor(place.x, place.y, place.width);
   ui.end_panel();
 }
 
