@@ -41,10 +41,17 @@ std::string fault_of(const Include& include) {
     if (rank(room_of(what)) > rank(room_of(from))) return "points upwards";
     if (from.starts_with("tools/view/") && what.starts_with("tools/") && !what.starts_with("tools/view/"))
       return "tools/view serves the other tools and must not know them";
+    if (from.starts_with("tools/studio/") && what.starts_with("tools/") && !what.starts_with("tools/studio/") &&
+        !what.starts_with("tools/view/"))
+      return "tools/studio is built on tools/view alone";
+    if (what.starts_with("tools/studio/") && !starts_with_any(from, {"tools/studio/", "tools/argil/studio.cpp"}))
+      return "only the program opens the studio";
   } else if (include.quoted) {
     return "must be \"room/file.h\" from the source folder, or in <> if it is of others";
   }
   const bool in_tools = from.starts_with("tools/");
+  if (starts_with_any(what, {"GLFW/", "imgui"}) && in_tools && !from.starts_with("tools/studio/"))
+    return "belongs to tools/studio/ only";
   if (starts_with_any(what, {"GL/", "GLES", "GLFW/", "EGL/", "imgui", "CLI/"}) && !in_tools)
     return "belongs to tools/ only";
   if (what.starts_with("CGAL/") && !from.starts_with("subdiv/query/")) return "belongs to subdiv/query/ only";
@@ -112,6 +119,10 @@ TEST(Architecture, TheRulesRefuseWhatTheyShould) {
   EXPECT_TRUE(refused("subdiv/boundary.cpp", "CGAL/AABB_tree.h"));
   EXPECT_FALSE(refused("subdiv/query/inside.cpp", "CGAL/AABB_tree.h"));
   EXPECT_FALSE(refused("tools/view/view.cpp", "GL/gl.h"));
+  EXPECT_TRUE(refused("tools/view/view.cpp", "imgui.h"));
+  EXPECT_FALSE(refused("tools/studio/window.cpp", "GLFW/glfw3.h"));
+  EXPECT_TRUE(refused("tools/studio/desk.h", "tools/chart/table.h", true));
+  EXPECT_TRUE(refused("tools/chart/table.cpp", "tools/studio/desk.h", true));
   EXPECT_FALSE(refused("sculpt/document.h", "subdiv/solid.h", true));
   EXPECT_FALSE(refused("tools/argil/main.cpp", "tools/view/view.h", true));
   EXPECT_FALSE(refused("fem/system.h", "Eigen/Core"));

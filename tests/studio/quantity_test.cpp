@@ -12,6 +12,8 @@ TEST(Quantity, TakesUnitsAndArithmetic) {
   EXPECT_DOUBLE_EQ(parse_quantity("1/3", "m", "m"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(parse_quantity("1/3", "m", "mm"), 1e-3 / 3);  // in the unit that stood there
   EXPECT_DOUBLE_EQ(parse_quantity("2 mm + 1 cm", "m", "m"), 0.012);
+  EXPECT_DOUBLE_EQ(parse_quantity("3/100 MPa", "Pa", "Pa"), 3e4);
+  EXPECT_DOUBLE_EQ(parse_quantity("2 mm * 3", "m", "m"), 0.006);
   EXPECT_DOUBLE_EQ(parse_quantity("(3 + 0.5) kPa", "Pa", "Pa"), 3500);
   EXPECT_DOUBLE_EQ(parse_quantity("-2^2", "", ""), -4);
   EXPECT_DOUBLE_EQ(parse_quantity("1.2 g/cm³", "kg/m^3", "kg/m³"), 1200);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <thread>
@@ -258,6 +259,14 @@ TEST(Window, TheSameScriptGivesTheSamePicture) {
   for (std::size_t i = 0; i + 3 < first.rgba.size(); i += 4)
     colours.insert(static_cast<std::uint32_t>(first.rgba[i] | first.rgba[i + 1] << 8 | first.rgba[i + 2] << 16));
   EXPECT_GT(colours.size(), 500U);  // something is drawn
+}
+
+TEST(Window, WithoutADisplayTheProgramSaysSo) {
+  const std::filesystem::path said = folder("no_display") / "said.txt";
+  const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " ARGIL_PROGRAM " 2> " + said.string();
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_NE(io::read_file(said).find("expected a display"), std::string::npos);
 }
 
 // With its thread a workshop does orders while frames go on; the snapshot is there at any time.

@@ -49,7 +49,7 @@ TEST_P(Misuse, EndsWithStatusTwoAndAMessage) {
 
 const BadCall k_calls[] = {
     // How the program is called.
-    {"Nothing", {}, {"subcommand is required", "`argil --help`"}},
+    {"NoSession", {"studio", "no/such.argil"}, {"no file", "leave it out"}},
     {"UnknownSubcommand",
      {"replai", "session.argil"},
      {"'replai' is not a subcommand", "`replay`", "`argil --help`"}},

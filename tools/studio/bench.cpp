@@ -19,7 +19,7 @@ constexpr std::size_t k_messages = 40;
 
 const std::vector<std::string>& block_lines() {
   // Soft clay of 0.5 m: stiff enough to stand, soft enough that a hand's width of travel shows.
-  static const std::vector<std::string> lines{"new box 4 4 4 size 0.5 0.5 0.5 at -0.25 -0.25 0",
+  static const std::vector<std::string> lines{"new box 3 3 3 size 0.5 0.5 0.5 at -0.25 -0.25 0",
                                               "levels 2",
                                               "set young_modulus 2e4",
                                               "set density 300",
@@ -51,7 +51,6 @@ void Bench::begin_session(const std::filesystem::path& read_root) {
   session_ = std::make_unique<sculpt::Session>(std::move(session));
   marks_.clear();
   history_.clear();
-  stroke_times_.clear();
   file_.clear();
   lines_ = saved_lines_ = 0;
   playing_ = played_last_ = false;
@@ -81,7 +80,7 @@ void Bench::remember(const std::string& line, std::size_t depth_before, bool rep
     history_.back().depth = depth;
     ++history_.back().times;
   } else {
-    history_.push_back({line, depth, 1, false});
+    history_.push_back({.line = line, .depth = depth});
   }
   history_changed_ = true;
   ++lines_;
@@ -270,7 +269,7 @@ void Bench::end_stroke(bool keep) {
     session_->adopt_line(line);
     const double time = session_->document().state().motion->time;
     remember(line, depth, false);
-    if (stroke_times_.empty() || stroke_times_.back() < time) stroke_times_.push_back(time);
+    history_.back().stroke_end = time;
     const bool moved =
         session_->undo_depth() > depth && session_->document().state().motion->velocities.squaredNorm() > 0;
     if (keep && moved) run_one("commit");

@@ -93,7 +93,6 @@ class Bench {
   std::size_t stroke_depth_ = 0;  // of the undo stack before it
   long stroke_ticks_ = 0;
   std::optional<Eigen::Vector3d> stroke_from_;
-  std::vector<double> stroke_times_;
   bool playing_ = false, played_last_ = false;
   Shown shown_;
   std::filesystem::path file_;

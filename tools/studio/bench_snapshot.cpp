@@ -180,7 +180,6 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
     next->step_ms = sum / static_cast<double>(count);
   }
   next->missed_ticks = missed_ticks_;
-  next->stroke_times = stroke_times_;
   next->messages = messages_;
   changed_ = whole_ = history_changed_ = false;
   last_ = next;

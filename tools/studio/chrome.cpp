@@ -215,16 +215,20 @@ void draw_menu(Desk& desk, const Layout& layout, const Perform& perform) {
 void draw_shelf(Desk& desk, const Layout& layout) {
   if (!desk.settings.panels) return;
   Ui& ui = *desk.ui;
-  const float cell = ui.px(36), step = ui.px(40), margin = ui.px(4), line = ui.px(9);
+  const float margin = ui.px(4), line = ui.px(9);
   const auto& tools = shelf_tools();
+  // In a low window the tools stand closer.
+  const float room = layout.shelf.height - 2 * margin - 4 * line;
+  const float step = std::min(ui.px(40), room / static_cast<float>(tools.size()));
+  const float cell = step - margin, width = ui.px(36);
   float height = 2 * margin;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i > 0 && parted(tools[i - 1], tools[i])) height += line;
     height += i + 1 < tools.size() ? step : cell;
   }
   const Rect place{layout.shelf.x, layout.shelf.y, layout.shelf.width, std::min(height, layout.shelf.height)};
-  ui.begin_panel("shelf", place, ui.tokens().panel, k_corner, true);
-  float y = place.y + margin - ImGui::GetScrollY();
+  ui.begin_panel("shelf", place, ui.tokens().panel, k_corner);
+  float y = place.y + margin;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     if (i > 0 && parted(tools[i - 1], tools[i])) {
       ui.list().AddRectFilled({place.x + ui.px(9), y + ui.px(1)}, {place.right() - ui.px(9), y + ui.px(2)},
@@ -234,12 +238,12 @@ void draw_shelf(Desk& desk, const Layout& layout) {
     std::string tooltip = std::string(tools[i].label) + ": " + tools[i].help;
     if (i < 9)
       tooltip += "  ·  " + desk.bindings.word_of(static_cast<Action>(static_cast<std::size_t>(Action::tool_1) + i));
-    if (ui.icon_button(tools[i].label, {place.x + margin, y, cell, cell}, tools[i].icon, i == desk.settings.tool,
+    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon, i == desk.settings.tool,
                        tooltip))
       desk.take_tool(i);
     y += step;
   }
-  ui.set_cursor(place.x, y - (step - cell), place.width);
+  ui.set_cursor(place.x, place.y, place.width);
   ui.end_panel();
 }
 
@@ -300,7 +304,7 @@ void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
   ui.text(draw, ui.fonts().small, {x, place.y, ui.px(64), place.height}, t.quiet, here);
   ui.note_control(ControlKind::reading, "Time", "Time of the simulation", "s", {x, y, ui.px(64), size});
   double last = std::max(1.0, time);
-  for (const double stroke : now.stroke_times) last = std::max(last, stroke);
+  for (const HistoryEntry& entry : *now.history) last = std::max(last, entry.stroke_end);
   last = std::ceil(last * 1.25);
   const std::string end = fmt::format("{:.0f} s", last);
   const float end_width = ui.width_of(ui.fonts().small, end);
@@ -314,8 +318,10 @@ void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
   ui.box(draw, {left, middle - ui.px(2.5F), right - left, ui.px(5)}, t.outline, 2.5F);
   if (time > 0)
     ui.box(draw, {left, middle - ui.px(2.5F), std::max(ui.px(5), at(time) - left), ui.px(5)}, t.accent, 2.5F);
-  for (const double stroke : now.stroke_times)
-    ui.box(draw, {at(stroke) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)}, t.mark, 1.5F);
+  for (const HistoryEntry& entry : *now.history)
+    if (entry.stroke_end >= 0)
+      ui.box(draw, {at(entry.stroke_end) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)},
+             entry.undone ? t.faint : t.mark, 1.5F);
   draw.AddCircleFilled({at(time), middle}, ui.px(6), t.accent, 24);
   ui.note_control(ControlKind::reading, "Timeline", "How far time has gone; marks stand where strokes ended", "s",
                   {left, y, right - left, size});

@@ -126,7 +126,8 @@ class Parser {
     }
   }
   double product() {
-    double value = signed_power();
+    // A unit is that of all factors before it: 3/100 MPa is 0.03 MPa.
+    double value = signed_power() * unit_here();
     for (;;) {
       if (take('*'))
         value *= signed_power();
@@ -134,6 +135,7 @@ class Parser {
         value /= signed_power();
       else
         return value;
+      value *= unit_here();
     }
   }
   double signed_power() {
@@ -155,7 +157,7 @@ class Parser {
       left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
     }
     --depth_;
-    return value * unit_here();
+    return value;
   }
   // The longest unit that stands here: "m" must not be taken off "mm".
   double unit_here() {

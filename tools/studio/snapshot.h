@@ -26,6 +26,7 @@ struct HistoryEntry {
   std::size_t depth = 0;  // of the undo stack after it
   long times = 1;         // equal ones in a row
   bool undone = false;
+  double stroke_end = -1;  // [s]; −1: not a stroke
 };
 
 enum class MessageKind { note, warning, error };
@@ -75,8 +76,7 @@ struct Snapshot {
   std::optional<StrokeNow> stroke;
   double step_ms = 0;
   long steps = 0, missed_ticks = 0;
-  std::vector<double> stroke_times;  // where strokes ended [s], for the timeline
-  std::vector<Message> messages;     // the latest, oldest first
+  std::vector<Message> messages;  // the latest, oldest first
 };
 
 }  // namespace argil::studio

@@ -201,9 +201,9 @@ bool Ui::choice_row(const char* name, std::span<const std::string> options, std:
     ImDrawList& above = list();
     above.PushClipRectFullScreen();
     shadow(above, place, k_corner);
-    above.PopClipRect();
     box(above, place, tokens_->raised);
     frame(above, place, tokens_->outline);
+    above.PopClipRect();
     const float x = x_, y = y_, width = width_;
     set_cursor(place.x + px(4), place.y + px(6) - ImGui::GetScrollY(), place.width - px(8));
     for (std::size_t i = 0; i < options.size(); ++i)

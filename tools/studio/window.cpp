@@ -98,6 +98,7 @@ void run_window(const WindowOptions& options) {
                 fmt::format("expected a window with OpenGL 3.3, found that there is none ({}); "
                             "update Mesa or the display driver",
                             last_fault()));
+  glfwSetWindowSizeLimits(window.get(), 1000, 700, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   const view::Gl gl = view::load_gl(reinterpret_cast<ProcedureLookUp>(glfwGetProcAddress));
