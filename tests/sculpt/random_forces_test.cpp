@@ -194,7 +194,9 @@ void run_session(std::uint32_t seed, Tally& tally) {
   ASSERT_TRUE(p.allFinite()) << place;
   ASSERT_TRUE(test.state().motion->velocities.allFinite()) << place;
   // Half a second of free fall is 1.2 m, a tool goes 1 m, and what it throws may go as far again.
-  EXPECT_LE(p.cwiseAbs().maxCoeff(), 20) << place;
+  // Pressure does not end where the device does: what it blows away is anywhere.
+  const bool blown = joined(session.body).find("tool inflate") != std::string::npos;
+  EXPECT_TRUE(blown || p.cwiseAbs().maxCoeff() <= 20) << p.cwiseAbs().maxCoeff() << " m, " << place;
   std::set<fem::GuardRemedy> remedies;
   for (const StepRecord& step : test->steps()) {
     ++tally.steps;

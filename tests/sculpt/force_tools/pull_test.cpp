@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "sessions.h"
+#include "tests/sculpt/sessions.h"
 
 namespace argil::sculpt {
 namespace {
