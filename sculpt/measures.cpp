@@ -11,6 +11,7 @@
 #include "fem/measure/energy.h"
 #include "fem/measure/quality.h"
 #include "sculpt/document_loads.h"
+#include "sculpt/force_tools/probe.h"
 #include "sculpt/near_names.h"
 #include "sculpt/region.h"
 #include "subdiv/boundary.h"
@@ -114,6 +115,8 @@ const std::vector<MeasureInfo>& measure_table() {
         {"spring_energy", "J", "energy of soft pins"},
         {"min_volume_ratio", "", "smallest present over rest volume (det F) at a quadrature point"},
         {"displacement", "m", "of a material point", true},
+        {"felt_stiffness", "N/m", "of the body under the tool's brush at a material point, as the probe reads it",
+         true},
         {"reaction", "N", "what the pins apply", false, true},
     };
     for (const DerivedField& field : derived_fields())
@@ -213,6 +216,7 @@ double measure(const Document& document, const MeasureQuery& query) {
   if (name.starts_with("momentum")) return axis_of(name, fem::momentum(document.system(), motion).linear);
   const fem::MaterialPoint point = material_point(document, *query.at);
   const Eigen::Vector3d now = fem::position(point.stencil, document.positions());
+  if (name == "felt_stiffness") return Probe(document).read(document.state().tool, now).stiffness;
   if (name.starts_with("position")) return axis_of(name, now);
   return axis_of(name, now - fem::position(point.stencil, document.rest()));
 }

@@ -53,8 +53,7 @@ Balance balance_of(const Document& document, const fem::Loads& tool) {
   balance.volume = fem::volume(document.discretization(), nodes);
   balance.min_volume_ratio = fem::min_volume_ratio(document.discretization().blocks, nodes);
   balance.momentum = fem::momentum(system, motion);
-  balance.tool = fem::wrench(tool.springs, motion.positions);
-  if (tool.forces.cols() > 0) balance.tool.force += fem::wrench(tool.forces, motion.positions).force;
+  balance.tool = wrench_of(tool, motion.positions);
   const fem::Wrench soft = fem::wrench(loads.springs, motion.positions);
   add_loads(loads, tool);
   balance.reaction = fem::wrench(fem::reactions(system, loads, motion.positions), motion.positions);

@@ -64,7 +64,10 @@ void Stroke::hold(const StrokePose& first) {
     probe_ = std::make_unique<Probe>(document);
     static_cast<void>(touch(document, tool_, first.position, options_.inside));
   } else if (is_painting_tool(tool_.name)) {
-    paintings_.push_back(std::make_unique<Painting>(document, tool_, first.position, grip));
+    if (painting_)  // one paints for both images
+      static_cast<void>(touch(document, tool_, first.position, options_.inside));
+    else
+      painting_ = std::make_unique<Painting>(document, tool_, first.position, grip);
   } else {
     tools_.push_back(take_hold(document, tool_, first, grip));
   }
@@ -122,13 +125,11 @@ void Stroke::take_step() {
 }
 
 void Stroke::paint() {
-  for (std::size_t i = 0; i < paintings_.size(); ++i) {
-    if (i == 0)
-      paintings_[i]->paint(session_.document(), painted_, pose_);
-    else
-      paintings_[i]->paint(session_.document(), mirrored(painted_, mirror_, plane_),
-                           mirrored(pose_, mirror_, plane_));
-  }
+  if (!painting_) return;
+  painting_->note(session_.document(), painted_, pose_);
+  if (mirror_ >= 0)
+    painting_->note(session_.document(), mirrored(painted_, mirror_, plane_), mirrored(pose_, mirror_, plane_));
+  painting_->apply(session_.document(), pose_.position);
   painted_ = pose_;
 }
 
@@ -168,13 +169,16 @@ StrokeForce Stroke::force() const {
 }
 
 std::string Stroke::report() const {
-  if (!paintings_.empty()) return paintings_.front()->report();
+  if (painting_) return painting_->report();
   if (probe_)
     return reading_ ? fmt::format("felt {:.4g} N/m at the end, from {:.4g} to {:.4g} N/m on the way",
                                   reading_->stiffness, softest_, stiffest_)
                     : std::string("the probe touches nothing at the end");
   if (tool_.name == "pull") return fmt::format("pulled with up to {:.3g} N", largest_);
-  return fmt::format("{}: up to {:.3g} N in all, moment up to {:.3g} N m", tool_.name, largest_, largest_moment_);
+  // What is left of rounding is none.
+  const double none = 1e-9 * tool_.strength * tool_.radius;
+  return fmt::format("{}: net force up to {:.3g} N, net moment up to {:.3g} N m", tool_.name,
+                     largest_ > none ? largest_ : 0, largest_moment_ > none * tool_.radius ? largest_moment_ : 0);
 }
 
 std::string Stroke::finish() {
@@ -188,6 +192,7 @@ std::string Stroke::finish() {
     return line();
   }
   paint();
+  if (painting_) painting_->apply(session_.document());
   State next = session_.document().state();
   next.tick_carry = std::max(0.0, pending_);
   report_guard(session_, first_step_);

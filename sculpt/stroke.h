@@ -17,11 +17,13 @@
 namespace argil::sculpt {
 
 struct StrokeOptions {
-  bool invert = false;                 // the opposite: deflate for inflate, push for pull, …
-  bool smoothing = false;              // smooth with the tool's brush, whatever the tool is
-  std::vector<Eigen::Vector3d> curve;  // a curve through these points is held instead of what the tool touches …
-  std::size_t handle = 0;              // … and this point of it follows the device
-  bool inside = false;                 // hold what is inside the solid, even where its surface is within the radius
+  bool invert = false;     // the opposite: deflate for inflate, push for pull, …
+  bool smoothing = false;  // smooth with the tool's brush, whatever the tool is
+  bool inside = false;     // hold what is inside the solid, even where its surface is within the radius
+  /// Not empty: a curve through these points is held, in place of what the tool touches, and the one of place
+  /// `handle` follows the device.
+  std::vector<Eigen::Vector3d> curve = {};
+  std::size_t handle = 0;
 };
 
 /// What a stroke does to the body now.
@@ -81,7 +83,7 @@ class Stroke {
   int mirror_ = -1;  // axis that a mirror image acts along; −1: none
   double plane_ = 0;
   std::vector<std::unique_ptr<ForceTool>> tools_;  // the device's own first, then its mirror image's
-  std::vector<std::unique_ptr<Painting>> paintings_;
+  std::unique_ptr<Painting> painting_;
   std::unique_ptr<Probe> probe_;
   std::optional<ProbeReading> reading_;
   double softest_ = 0, stiffest_ = 0;    // readings so far [N/m]

@@ -1,6 +1,8 @@
 #include "fem/dynamics/whole_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace argil::fem {
 
@@ -34,6 +36,8 @@ void step_as_a_whole(const System& system, const Loads& loads, BodyState& state,
   for (Eigen::Index i = 0; i < loads.forces.cols(); ++i) force += loads.forces.col(i);
   double stiffness = 0;
   for (const AnchorSpring& spring : loads.springs) {
+    // Weights sum to 1, or to 0 where a spring acts between parts of the body.
+    if (std::abs(std::accumulate(spring.weights.begin(), spring.weights.end(), 0.0)) < 0.5) continue;
     force += spring.stiffness * (spring.target - held_point(spring, state.positions));
     stiffness += spring.stiffness;
   }

@@ -1,6 +1,8 @@
 #include "fem/measure/energy.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numeric>
 
 namespace argil::fem {
 
@@ -71,7 +73,10 @@ Wrench wrench(std::span<const AnchorSpring> springs, const Eigen::Matrix3Xd& pos
   Wrench sum;
   for (const AnchorSpring& spring : springs) {
     const Eigen::Vector3d at = held_point(spring, positions);
-    add(sum, at, spring.stiffness * (spring.target - at));
+    const Eigen::Vector3d force = spring.stiffness * (spring.target - at);
+    add(sum, at, force);
+    // Weights sum to 1, or to 0 where a spring acts between parts of the body: then it has a moment at most.
+    if (std::abs(std::accumulate(spring.weights.begin(), spring.weights.end(), 0.0)) < 0.5) sum.force -= force;
   }
   return sum;
 }

@@ -10,14 +10,14 @@
 namespace argil::sculpt {
 
 fem::Wrench ForceTool::wrench(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
-  const fem::Loads now = loads(pose, positions);
-  fem::Wrench sum = fem::wrench(now.springs, positions);
-  if (now.forces.cols() > 0) {
-    const fem::Wrench dead = fem::wrench(now.forces, positions);
-    sum.force += dead.force;
-    sum.moment += dead.moment;
-  }
-  return sum;
+  return wrench_of(loads(pose, positions), positions);
+}
+
+fem::Wrench wrench_of(const fem::Loads& loads, const Eigen::Matrix3Xd& positions) {
+  Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, positions.cols());
+  if (loads.forces.cols() > 0) forces = loads.forces;
+  fem::add_spring_forces(loads.springs, positions, forces);
+  return fem::wrench(forces, positions);
 }
 
 std::unique_ptr<ForceTool> take_hold(const Document& document, const Tool& tool, const StrokePose& first,

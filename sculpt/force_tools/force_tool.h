@@ -69,6 +69,10 @@ struct GripOptions {
 [[nodiscard]] std::unique_ptr<ForceTool> take_hold(const Document& document, const Tool& tool,
                                                    const StrokePose& first, const GripOptions& options);
 
+/// Force and moment about the origin of forces and springs, whatever the weights of a spring sum to (those between
+/// parts of the body sum to zero).
+[[nodiscard]] fem::Wrench wrench_of(const fem::Loads& loads, const Eigen::Matrix3Xd& positions);
+
 /// Adds forces and springs.
 void add_loads(fem::Loads& to, const fem::Loads& loads);
 

@@ -58,95 +58,89 @@ Painting::Painting(const Document& document, const Tool& tool, const Eigen::Vect
                               info.word, info.low, info.high, info.unit, tool.amount, tool.name, info.initial));
   }
   static_cast<void>(touch(document, tool, at, options.inside));
-  largest_ = Eigen::VectorXd::Zero((*base_)[FieldName::mask].size());
-  touched_.assign(document.solid().vertex_capacity(), 0);
+  largest_ = Eigen::VectorXd::Zero(field_ ? (*base_)[*field_].size()
+                                          : static_cast<Eigen::Index>(document.solid().vertex_capacity()));
+  pinned_.assign(document.solid().vertex_capacity(), 0);
+  for (const std::uint32_t v : document.state().pins->control_points) pinned_[v] = 1;
 }
 
-Eigen::VectorXd Painting::weights_on(const Eigen::Matrix3Xd& places, const StrokePose& from,
-                                     const StrokePose& to) const {
+void Painting::note(const Document& document, const StrokePose& from, const StrokePose& to) {
   const fem::Falloff falloff = falloff_by_word(tool_.falloff);
   const Eigen::Vector3d way = to.position - from.position;
   const double length_squared = way.squaredNorm();
-  Eigen::VectorXd weights(places.cols());
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const Eigen::Vector3d offset = places.col(i) - from.position;
+  const auto note = [&](Eigen::Index i, const Eigen::Vector3d& place, double share) {
+    const Eigen::Vector3d offset = place - from.position;
     const double s = length_squared > 0 ? std::clamp(offset.dot(way) / length_squared, 0.0, 1.0) : 1;
-    weights[i] = falloff_weight(falloff, (offset - s * way).norm() / tool_.radius) *
-                 ((1 - s) * from.pressure + s * to.pressure);
-  }
-  return weights;
-}
-
-void Painting::paint(Document& document, const StrokePose& from, const StrokePose& to) {
-  if (!field_) return paint_pins(document, from, to);
-  paint_field(document,
-              weights_on(subdiv::apply(document.refinement().stencils.back(), document.positions()), from, to));
-}
-
-void Painting::paint_field(Document& document, const Eigen::VectorXd& weights) {
-  const FieldInfo& info = info_of(*field_);
-  const Eigen::VectorXd& mask = (*base_)[FieldName::mask];
-  const Eigen::VectorXd& before = (*base_)[*field_];
-  std::shared_ptr<Fields> fields;
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const double weight = weights[i] * (1 - mask[i]);
-    if (!(weight > largest_[i])) continue;
+    const double weight = share * falloff_weight(falloff, (offset - s * way).norm() / tool_.radius) *
+                          ((1 - s) * from.pressure + s * to.pressure);
+    if (!(weight > largest_[i])) return;
     largest_[i] = weight;
-    if (!fields) fields = std::make_shared<Fields>(*document.state().fields);
-    const double goal = invert_ ? info.initial : tool_.amount;
+    noted_ = true;
+  };
+  const Eigen::Matrix3Xd nodes = subdiv::apply(document.refinement().stencils.back(), document.positions());
+  if (field_) {
+    const Eigen::VectorXd& mask = (*base_)[FieldName::mask];
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) note(i, nodes.col(i), 1 - mask[i]);
+  } else {
+    const auto node_of = node_from_control_vertex(document);
+    for (const subdiv::VertexId v : document.solid().vertices())
+      note(static_cast<Eigen::Index>(v.index()), nodes.col(node_of[v.index()]), 1);
+  }
+}
+
+void Painting::apply(Document& document, const std::optional<Eigen::Vector3d>& at) {
+  if (!noted_) return;
+  if (at && applied_at_ && (*at - *applied_at_).norm() <= tool_.radius / 4) return;
+  if (at) applied_at_ = at;
+  noted_ = false;
+  if (field_)
+    apply_field(document);
+  else
+    apply_pins(document);
+}
+
+void Painting::apply_field(Document& document) const {
+  const FieldInfo& info = info_of(*field_);
+  const Eigen::VectorXd& before = (*base_)[*field_];
+  const double goal = invert_ ? info.initial : tool_.amount;
+  auto fields = std::make_shared<Fields>(*base_);
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    const double weight = largest_[i];
+    if (!(weight > 0)) continue;
     const double painted = tool_.scales ? before[i] * std::pow(tool_.amount, invert_ ? -weight : weight)
                                         : before[i] + weight * (goal - before[i]);
     (*fields)[*field_][i] = std::clamp(painted, info.low, info.high);
   }
-  if (!fields) return;
   State next = document.state();
   next.fields = fields;
   document.assign(std::move(next));
 }
 
-void Painting::paint_pins(Document& document, const StrokePose& from, const StrokePose& to) {
-  const Eigen::Matrix3Xd nodes = subdiv::apply(document.refinement().stencils.back(), document.positions());
-  const auto node_of = node_from_control_vertex(document);
-  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(node_of.size()));
-  for (std::size_t v = 0; v < node_of.size(); ++v)
-    if (document.solid().is_live(subdiv::VertexId{v}))
-      places.col(static_cast<Eigen::Index>(v)) = nodes.col(node_of[v]);
-    else
-      places.col(static_cast<Eigen::Index>(v)).setConstant(1e300);
-  const Eigen::VectorXd weights = weights_on(places, from, to);
-  std::vector<std::uint8_t> pinned(touched_.size(), 0);
-  for (const std::uint32_t v : document.state().pins->control_points) pinned[v] = 1;
+void Painting::apply_pins(Document& document) const {
   State next = document.state();
-  std::shared_ptr<fem::BodyState> motion;
-  bool changed = false;
-  for (std::size_t v = 0; v < touched_.size(); ++v) {
-    if (!(weights[static_cast<Eigen::Index>(v)] > 0) || (pinned[v] != 0) == !invert_) continue;
-    pinned[v] = invert_ ? 0 : 1;
-    touched_[v] = 1;
-    changed = true;
-    if (invert_) continue;
-    if (!motion) motion = std::make_shared<fem::BodyState>(*next.motion);
-    hold_still(*motion, static_cast<Eigen::Index>(v));
-  }
-  if (!changed) return;
   auto pins = std::make_shared<Pins>(*next.pins);
+  std::vector<std::uint8_t> held(pinned_.size(), 0);
+  for (const std::uint32_t v : pins->control_points) held[v] = 1;
+  auto motion = std::make_shared<fem::BodyState>(*next.motion);
   pins->control_points.clear();
-  for (std::size_t v = 0; v < pinned.size(); ++v)
-    if (pinned[v]) pins->control_points.push_back(static_cast<std::uint32_t>(v));
+  for (std::size_t v = 0; v < pinned_.size(); ++v) {
+    const bool touched = largest_[static_cast<Eigen::Index>(v)] > 0;
+    if (touched ? invert_ : !pinned_[v]) continue;
+    pins->control_points.push_back(static_cast<std::uint32_t>(v));
+    if (!held[v]) hold_still(*motion, static_cast<Eigen::Index>(v));
+  }
+  if (pins->control_points == next.pins->control_points) return;
   next.pins = pins;
-  if (motion) next.motion = motion;
+  next.motion = motion;
   document.assign(std::move(next));
 }
 
 std::string Painting::report() const {
-  if (!field_)
-    return fmt::format(
-        "{} {}",
-        count_of(static_cast<std::size_t>(std::count(touched_.begin(), touched_.end(), 1)), ElementType::vertices),
-        invert_ ? "released" : "pinned");
   std::size_t count = 0;
-  for (Eigen::Index i = 0; i < largest_.size(); ++i) count += largest_[i] > 0;
-  return fmt::format("{} painted on {}", info_of(*field_).word, count_of(count, ElementType::nodes));
+  for (Eigen::Index i = 0; i < largest_.size(); ++i)
+    count += largest_[i] > 0 && (field_ || (pinned_[static_cast<std::size_t>(i)] != 0) == invert_);
+  if (field_) return fmt::format("{} painted on {}", info_of(*field_).word, count_of(count, ElementType::nodes));
+  return fmt::format("{} {}", count_of(count, ElementType::vertices), invert_ ? "released" : "pinned");
 }
 
 }  // namespace argil::sculpt

@@ -21,24 +21,28 @@ class Painting {
   /// radius.
   Painting(const Document& document, const Tool& tool, const Eigen::Vector3d& at, const GripOptions& options);
 
-  /// Paints what is within the radius of the straight way between two poses (of its surface and inside), weighted
-  /// by falloff, pressure and what the mask leaves. Cost O(nodes of the finest level), and what new materials cost.
-  void paint(Document& document, const StrokePose& from, const StrokePose& to);
+  /// Notes what is within the radius of the straight way between two poses (of the surface and inside), weighted by
+  /// falloff, pressure and what the mask leaves. Cost O(nodes of the finest level).
+  void note(const Document& document, const StrokePose& from, const StrokePose& to);
+  /// Gives the body what is noted; but if `at` [m] is said, only where that is a quarter of the radius from where
+  /// it was when this was done last, as new materials cost a new factor of the stiffness.
+  void apply(Document& document, const std::optional<Eigen::Vector3d>& at = std::nullopt);
 
   /// "young_modulus painted on 12 nodes".
   [[nodiscard]] std::string report() const;
 
  private:
-  Eigen::VectorXd weights_on(const Eigen::Matrix3Xd& places, const StrokePose& from, const StrokePose& to) const;
-  void paint_field(Document& document, const Eigen::VectorXd& weights);
-  void paint_pins(Document& document, const StrokePose& from, const StrokePose& to);
+  void apply_field(Document& document) const;
+  void apply_pins(Document& document) const;
 
   Tool tool_;
   bool invert_;
   std::optional<FieldName> field_;      // none: pins
   std::shared_ptr<const Fields> base_;  // before the stroke
-  Eigen::VectorXd largest_;             // weights so far, per node
-  std::vector<std::uint8_t> touched_;   // per control point, of pins
+  Eigen::VectorXd largest_;             // weights so far, per node; of pins, per control point
+  std::vector<std::uint8_t> pinned_;    // before the stroke, per control point
+  bool noted_ = false;                  // what has not been applied
+  std::optional<Eigen::Vector3d> applied_at_;
 };
 
 }  // namespace argil::sculpt

@@ -1,7 +1,7 @@
 #pragma once
 // Pull and push: a spring from the device to the points that it touched (papers/004 §4.1). The touched points are
-// the boundary within a radius of where the device took hold, weighted by falloff and area, so that the force is
-// spread over them by virtual work and never acts on one vertex.
+// the boundary within a radius of where the device took hold (inside the solid, what is there), weighted by falloff
+// and area, so that the force is spread over them by virtual work and never acts on one vertex.
 
 #include "sculpt/force_tools/force_tool.h"
 

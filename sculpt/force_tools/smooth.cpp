@@ -96,7 +96,7 @@ class Smooth : public ForceTool {
     middle_ = middle_of(touched);
     // Means reach beyond what is touched, and what is there feels the opposite force.
     Tool wide = tool_;
-    wide.radius *= 1.5;
+    wide.radius *= 2;
     wide.falloff = "constant";
     const Touched around = sculpt::touched(document, wide, at_, touched.inside);
     const Eigen::Matrix3Xd nodes = subdiv::apply(document.discretization().nodes.rows, document.positions());
@@ -123,13 +123,12 @@ class Smooth : public ForceTool {
     std::vector<Near> near;
     for (std::size_t j = 0; j < around.points.size(); ++j) {
       const auto c = static_cast<Eigen::Index>(j);
-      // Not the other side of a thin sheet.
       if (!touched.inside && normals.col(c).dot(normal) <= 0) continue;
       near.push_back({(places.col(c) - centre).norm(), j});
     }
     std::sort(near.begin(), near.end());
     if (near.size() < 4) return;
-    const double reach = std::max(tool_.radius / 2, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
+    const double reach = std::max(tool_.radius, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
     std::size_t count = 0;
     while (count < near.size() && near[count].distance < reach) ++count;
 
@@ -149,6 +148,8 @@ class Smooth : public ForceTool {
       for (Eigen::Index a = 0; a < frame.cols(); ++a) offsets(a, j) = frame.col(a).dot(offset) / reach;
       const double s = other.distance / reach;
       weights[j] = around.weights[at] * (1 - s * s) * (1 - s * s);
+      // Not the other side of a thin sheet, and beyond an edge the less the sharper it is.
+      if (!touched.inside) weights[j] *= normals.col(at).dot(normal);
     }
     if (!mean_weights(offsets, weights)) return;
     std::vector<fem::PointStencil> points{touched.points[i]};

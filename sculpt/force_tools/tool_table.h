@@ -39,9 +39,9 @@ struct ToolKind {
 /// twice their size.
 [[nodiscard]] std::unique_ptr<ForceTool> take_pinch(const Document& document, const Tool& tool,
                                                     const StrokePose& first, const GripOptions& options);
-/// Drives each touched point along the normal to the mean of the surface around it, with the drag of a viscous
-/// skin; no net force or moment. Flat regions are left alone, whatever their mesh. Follows the device. Inverted it
-/// makes what stands out stand out twice as far. Inside, it smooths the displacement.
+/// Drives each touched point along the normal to the mean of the surface within a radius of it, with the drag of a
+/// viscous skin; no net force or moment. Flat regions are left alone, whatever their mesh. Follows the device.
+/// Inverted it makes what stands out stand out twice as far. Inside, it smooths the displacement.
 [[nodiscard]] std::unique_ptr<ForceTool> take_smooth(const Document& document, const Tool& tool,
                                                      const StrokePose& first, const GripOptions& options);
 

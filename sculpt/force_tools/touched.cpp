@@ -243,11 +243,22 @@ fem::PointStencil middle_of(const Touched& touched) {
 }
 
 fem::PointStencil combination(std::span<const fem::PointStencil> points, std::span<const double> factors) {
-  std::vector<std::pair<std::uint32_t, double>> entries;
+  std::uint32_t last = 0;
+  for (const fem::PointStencil& point : points) last = std::max(last, point.control_points.back());
+  std::vector<double> sums(last + std::size_t{1}, 0.0);
+  std::vector<std::uint8_t> named(last + std::size_t{1}, 0);
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t e = 0; e < points[i].control_points.size(); ++e)
-      entries.emplace_back(points[i].control_points[e], factors[i] * points[i].weights[e]);
-  return gathered(entries);
+    for (std::size_t e = 0; e < points[i].control_points.size(); ++e) {
+      sums[points[i].control_points[e]] += factors[i] * points[i].weights[e];
+      named[points[i].control_points[e]] = 1;
+    }
+  fem::PointStencil result;
+  for (std::uint32_t c = 0; c <= last; ++c)
+    if (named[c]) {
+      result.control_points.push_back(c);
+      result.weights.push_back(sums[c]);
+    }
+  return result;
 }
 
 }  // namespace argil::sculpt

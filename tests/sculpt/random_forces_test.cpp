@@ -75,14 +75,16 @@ class RandomForces {
     if (gentle || pick(2)) lines.push_back("pin where x < 0.02 or z > 10");
     if (!gentle && pick(2)) lines.push_back("gravity 0 0 -9.81");
 
+    static constexpr const char* k_tools[] = {"pull", "pull", "grab", "inflate", "twist", "pinch", "smooth"};
     const double reach = gentle ? 0.02 : number(0.01, 1);
     // The highest frequency of a gentle body is up to 1000 rad/s. Of the methods that gain energy at any step, its
     // damping of 30/s holds the midpoint rule up to (ωh)⁴/4 < 30 h and forward Euler up to ω² h < 30.
     const double smallest = result.method == "forward_euler" ? 2e-5 : (result.method == "midpoint" ? 2e-4 : 5e-4);
     const double step = gentle ? smallest : logarithmic(2e-4, 1.0 / 20);
     const int ticks = gentle ? 150 : static_cast<int>(std::min(400.0, 30 + 60 * step * 1000));
-    lines.push_back(
-        fmt::format("tool pull radius 0.08 strength {:.4g}", gentle ? 1e-4 * young : logarithmic(1, 1e7)));
+    lines.push_back(fmt::format("tool {} radius 0.08 strength {:.4g}",
+                                gentle ? "pull" : k_tools[pick(std::size(k_tools))],
+                                gentle ? 1e-4 * young : logarithmic(1, 1e7)));
     const double x = number(-1, 1), y = number(-1, 1), z = number(-1, 1);
     const double scale = reach / std::max(0.1, std::sqrt(x * x + y * y + z * z));
     double at[3];
@@ -192,7 +194,9 @@ void run_session(std::uint32_t seed, Tally& tally) {
   ASSERT_TRUE(p.allFinite()) << place;
   ASSERT_TRUE(test.state().motion->velocities.allFinite()) << place;
   // Half a second of free fall is 1.2 m, a tool goes 1 m, and what it throws may go as far again.
-  EXPECT_LE(p.cwiseAbs().maxCoeff(), 20) << place;
+  // Pressure does not end where the device does: what it blows away is anywhere.
+  const bool blown = joined(session.body).find("tool inflate") != std::string::npos;
+  EXPECT_TRUE(blown || p.cwiseAbs().maxCoeff() <= 20) << p.cwiseAbs().maxCoeff() << " m, " << place;
   std::set<fem::GuardRemedy> remedies;
   for (const StepRecord& step : test->steps()) {
     ++tally.steps;

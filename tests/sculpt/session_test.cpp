@@ -62,6 +62,7 @@ const std::map<std::string, std::vector<std::string>> k_changes = {
     {"split", {"split where z > 0.1 and x > 0.1"}},
     {"step", {"step 2", "step dt 1/100"}},
     {"stroke", {"stroke from 0.1 0.1 0.2 to 0.15 0.1 0.2 ticks 40 device hand"}},
+    {"curve", {"curve through 0.05 0.1 0.2 0.15 0.1 0.2 handle 1 to 0.05 0.1 0.25 ticks 40"}},
     {"tool", {"tool pull limit 2 falloff constant"}},
 };
 
@@ -308,6 +309,7 @@ const std::vector<BadLine> k_bad_lines = {
     {"step 0", ErrorCode::bad_input, "between 1", "input:1:6"},
     {"step dt 0", ErrorCode::bad_input, "must lie", "input:1:9"},
     {"step 1e7", ErrorCode::limit_exceeded, "--max-steps"},
+    {"curve through 0 0 0.1 0.2 0.2 0.2 handle 3 to 0 0 1", ErrorCode::bad_input, "handles 1 to 2"},
     {"stroke from 9 9 9 to 0 0 0 ticks 10", ErrorCode::bad_input, "touches nothing"},
     {"stroke from 0 0 0.1 ticks 10", ErrorCode::bad_input, "to is missing", "input:1:29"},
     {"stroke from 0.1 0.1 0.2 to 0 0 0 ticks 0", ErrorCode::bad_input, "must lie", "input:1:40"},
