@@ -121,6 +121,23 @@ TEST(Window, EscTakesAStrokeBack) {
   EXPECT_EQ(hash(window), before);
 }
 
+TEST(Window, ShiftEscSwitchesAllForceOff) {
+  Offscreen window(options("off"));
+  window.workshop().run_together({"force 0 0 5 where z > 0.49", "gravity 0 0 -9.81"});
+  window.press("Space");
+  window.wait(4);
+  EXPECT_TRUE(window.now().playing);
+  EXPECT_GT(window.now().steps, 0);
+  window.press("Shift-Esc");
+  window.wait(2);
+  EXPECT_FALSE(window.now().playing);
+  EXPECT_TRUE(window.now().state.loads->forces.empty());
+  EXPECT_TRUE(window.now().state.loads->gravity.isZero());
+  const long steps = window.now().steps;
+  window.wait(4);
+  EXPECT_EQ(window.now().steps, steps);
+}
+
 TEST(Window, DragBesideOrbitsAndTheWheelZooms) {
   Offscreen window(options("view"));
   const std::uint64_t before = hash(window);

@@ -67,7 +67,6 @@ struct Desk {
   bool card = true;        // of the first minute
   bool quits = false, takes_picture = false;
   std::filesystem::path folder = ".";  // where files are opened and saved
-  std::filesystem::path samples;
   double frame_ms = 0, frames_a_second = 0;
   std::vector<float> force_plot;  // [N], the latest last
   double time = 0;                // [s], since the window opened

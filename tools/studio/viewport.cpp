@@ -79,7 +79,6 @@ void Viewport::key_released(Desk& desk, int released) {
 
 void Viewport::update_hover(Desk& desk, bool over_ui) {
   hover_.reset();
-  cannot_.clear();
   const Snapshot& now = *desk.now;
   const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
   if (!now.scene || over_ui || !now.scene->draw_surface || (drag_ != Drag::none && !sizes)) return;

@@ -64,7 +64,6 @@ class Viewport {
   double depth_ = 0;  // towards the eye, by the wheel
   // The brush while it is sized.
   double brush_start_ = 0, brush_now_ = 0;
-  std::string cannot_;  // why, at the pointer
 };
 
 }  // namespace argil::studio

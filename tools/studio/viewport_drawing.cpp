@@ -176,6 +176,13 @@ void Viewport::draw_marks(Desk& desk) {
     label(Eigen::Vector2d(x_ + ui.px(18), y_ - ui.px(14)), force.number + ' ' + force.unit,
           now.stroke->at_limit ? t.warning : t.accent);
   }
+  // What could not be done is said where the hand is.
+  if (!now.messages.empty() && now.messages.back().kind == MessageKind::error &&
+      desk.time - desk.message_since < 3 && desk.dialogue == Dialogue::none) {
+    std::string said = now.messages.back().text;
+    if (const std::size_t more = said.find(';'); more != said.npos) said.resize(more);
+    label(Eigen::Vector2d(x_ + ui.px(18), y_ + ui.px(24)), said, t.warning);
+  }
   if (drag_ == Drag::radius || drag_ == Drag::strength) {
     const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");
     label(Eigen::Vector2d(x_ + ui.px(18), y_), size.number + ' ' + size.unit, t.accent);
