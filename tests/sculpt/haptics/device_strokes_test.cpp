@@ -85,7 +85,7 @@ std::vector<std::uint64_t> minute_of_ticks(int threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   TestSession session({"new box 2 2 1 size 0.3 0.3 0.2", "levels 1", "pin where z < 0.01", "set damping 5",
-                       "tool pull radius 0.15 strength 200", "integrator bdf2 step 1/50"});
+                       "tool pull radius 0.15 strength 200"});
   std::vector<std::uint64_t> hashes;
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&](const Vector3d& v) {
@@ -120,9 +120,9 @@ TEST(DeviceStrokesSlow, AMinuteHasTheSameTicksForAnyThreads) {
 }
 
 TEST(DeviceStrokes, TheHandFeelsTheStiffnessOfTheStaticSolver) {
-  for (const double strength : {50.0, 300.0}) {
+  for (const double strength : {100.0, 300.0}) {
     TestSession session(k_block);
-    session.run({"tool pull radius 0.1 strength " + std::to_string(strength)});
+    session.run({"set young_modulus 1e4", "tool pull radius 0.1 strength " + std::to_string(strength)});
     const Vector3d top(0.15, 0.15, 0.2);
     ScriptedDevice intention({{at(top), at(top + Vector3d(0, 0, 0.03)), 600, Ease::smooth},
                               {at(top + Vector3d(0, 0, 0.03)), at(top + Vector3d(0, 0, 0.03)), 2400}});
@@ -155,7 +155,7 @@ TEST(DeviceStrokes, TheHandFeelsTheStiffnessOfTheStaticSolver) {
     const double still = tool->force({held}, body.positions).z() / (held - top).z();
     std::printf("strength %g N/m: felt %.2f N/m, static %.2f N/m\n", strength, felt, still);
     EXPECT_NEAR(felt, still, 0.1 * still);
-    EXPECT_LT(still, 0.99 * strength);  // the body gives way as well
+    EXPECT_LT(still, 0.95 * strength);  // the body gives way as well
   }
 }
 
