@@ -9,7 +9,7 @@ namespace argil::sculpt {
 
 enum class DeviceFault {
   delay,         // samples come `amount` ticks late
-  drop,          // commands do not arrive; samples do
+  drop,          // commands and models do not arrive; samples do
   not_a_number,  // poses are NaN
   stall          // nothing passes: the last sample again, with its old tick
 };
@@ -25,9 +25,13 @@ class FaultInjector : public Device {
   /// The device must outlive it. Where spans overlap, all of them apply.
   FaultInjector(Device& device, std::vector<FaultSpan> spans);
   DeviceCapabilities capabilities() const override { return device_.capabilities(); }
+  bool takes_models() const override { return device_.takes_models(); }
+  void publish(const ContactModel& model, Tick now) override;
   DeviceSample exchange(const ForceCommand& command, Tick tick) override;
 
  private:
+  bool rules(DeviceFault fault, Tick tick) const;
+
   Device& device_;
   std::vector<FaultSpan> spans_;
   Tick longest_delay_ = 0;

@@ -24,7 +24,6 @@ class RateSource {
   virtual std::optional<RateInput> poll() = 0;
   /// Shakes the hand by this share in [0, 1], until it is told otherwise; may do nothing.
   virtual void rumble(double share) = 0;
-  virtual bool can_rumble() const = 0;
 };
 
 struct RateOptions {

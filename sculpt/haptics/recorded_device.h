@@ -12,6 +12,8 @@ class DeviceRecorder : public Device {
  public:
   explicit DeviceRecorder(Device& device) : device_(device) {}
   DeviceCapabilities capabilities() const override { return device_.capabilities(); }
+  bool takes_models() const override { return device_.takes_models(); }
+  void publish(const ContactModel& model, Tick now) override { device_.publish(model, now); }
   DeviceSample exchange(const ForceCommand& command, Tick tick) override;
 
   struct Entry {

@@ -9,11 +9,11 @@
 namespace argil::sculpt {
 
 struct SafetyLimits {
-  double max_force = 8;    // [N]
-  double max_slew = 500;   // [N/s], how fast a force may change, falling to zero for a fault or silence included
-  double wind_down = 100;  // [N/s], how fast passivity takes back a force that moves with the hand, if it can
-  double max_speed = 20;   // [m/s]; a pose that comes faster has jumped: no force is wanted, no work counted
-  double start_energy = 2e-5;  // [J] that may be given out before any is taken in; infinity turns passivity off
+  double max_force = 8;   // [N]
+  double max_slew = 500;  // [N/s], how fast a force may change, falling to zero for a fault or silence included
+  double wind_down = 60;  // [N/s], how fast passivity takes back a force that moves with the hand, if it can
+  double max_speed = 20;  // [m/s]; a pose that comes faster has jumped: no force is wanted, no work counted
+  double start_energy = 3e-5;  // [J] that may be given out before any is taken in; infinity turns passivity off
   double max_energy = 0.5;  // [J] taken in that is remembered at most, so that a long push does not pay for a kick
   double least_mass = 0.1;  // [kg] of hand and handle together, that a force sets in motion at most so fast
 };

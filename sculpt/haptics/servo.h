@@ -16,7 +16,7 @@ struct ServoOptions {
   /// with a new one: a simulation that stalls lets go gently, and does not throw a hand out of what it sank into.
   Tick fade = 100, comeback = 800;
   /// A pose older than this gets no force: the passivity observer sees only poses, so what a late one pumps it
-  /// cannot count. At 1000 N/m and 5 ticks late that is 160 mJ a press.
+  /// cannot count. At 1000 N/m and 5 ticks late that is 66 mJ a press.
   Tick max_sample_age = 2;
 };
 

@@ -34,7 +34,6 @@ void print_table(bool json) {
                       {"summary", entry.summary},
                       {"present", entry.present},
                       {"state", entry.state},
-                      {"rumbles", entry.rumbles},
                       {"sensed_axes", entry.capabilities.sensed_axes},
                       {"actuated_axes", entry.capabilities.actuated_axes},
                       {"max_force_N", entry.capabilities.max_force},
@@ -44,8 +43,8 @@ void print_table(bool json) {
     return;
   }
   for (const devices::DeviceEntry& entry : entries)
-    fmt::print("{} {:<12} {}\n    {}{}; {}\n", entry.present ? "*" : " ", entry.name, entry.summary,
-               axes_of(entry.capabilities), entry.rumbles ? ", rumbles" : "", entry.state);
+    fmt::print("{} {:<12} {}\n    {}; {}\n", entry.present ? "*" : " ", entry.name, entry.summary,
+               axes_of(entry.capabilities), entry.state);
   fmt::print("* is there now\n");
 }
 

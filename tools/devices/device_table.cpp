@@ -64,7 +64,6 @@ class NoSource : public sculpt::RateSource {
  public:
   std::optional<sculpt::RateInput> poll() override { return std::nullopt; }
   void rumble(double) override {}
-  bool can_rumble() const override { return false; }
 };
 
 DeviceEntry gamepad_entry() {
@@ -79,7 +78,6 @@ DeviceEntry gamepad_entry() {
     entry.state = gamepad_name();
     entry.present = !entry.state.empty();
     if (!entry.present) entry.state = "none is plugged in";
-    entry.rumbles = entry.present;
   } catch (const Error& error) {
     entry.state = error.what();
   }
@@ -107,18 +105,18 @@ double part(std::vector<double>& times, double share) {
 
 std::vector<DeviceEntry> list_devices() {
   std::vector<DeviceEntry> entries;
-  entries.push_back({"mouse", "a mouse or pen: a ray and the wheel; force is drawn", true,
-                     "always there; used where another device is missing", false,
+  entries.push_back({"mouse", "a mouse or pen: a ray and the wheel; force is drawn", true, "always there",
                      sculpt::MouseDevice().capabilities()});
-  entries.push_back({"scripted", "follows the path of a session's stroke", true, "always there", false,
-                     pressing().capabilities()});
-  entries.push_back({"hand", "a simulated hand on a path, which feels the force", true, "always there", false,
+  entries.push_back(
+      {"scripted", "follows the path of a session's stroke", true, "always there", pressing().capabilities()});
+  entries.push_back({"hand", "a simulated hand on a path, which feels the force", true, "always there",
                      OwnedHand().device().capabilities()});
   entries.push_back(gamepad_entry());
   entries.push_back(space_mouse_entry());
   sculpt::SimulatedNetwork network({});
   entries.push_back({"network", "a device beside its own servo, by UDP", true,
-                     "`argil devices --serve NAME` on the machine that has the device", false,
+                     "`argil devices --serve NAME` on the machine that has the device; neither sessions nor the "
+                     "window take it up yet",
                      sculpt::NetworkDevice(network.end(0), 0).capabilities()});
   return entries;
 }

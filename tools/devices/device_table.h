@@ -14,7 +14,6 @@ struct DeviceEntry {
   std::string summary{};  // what it is
   bool present = false;
   std::string state{};  // what was found, or what is missing and how to get it
-  bool rumbles = false;
   sculpt::DeviceCapabilities capabilities{};
 };
 

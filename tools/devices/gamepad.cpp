@@ -75,7 +75,6 @@ class Gamepad : public sculpt::RateSource {
     last_strength_ = strength;
     since_rumble_ = 0;
   }
-  bool can_rumble() const override { return pad_ != nullptr && SDL_GameControllerHasRumble(pad_) == SDL_TRUE; }
 
  private:
   static constexpr int k_polls_between_looks = 500, k_rumble_ms = 100;

@@ -37,7 +37,6 @@ class SpaceMouse : public sculpt::RateSource {
     return input_;
   }
   void rumble(double) override {}
-  bool can_rumble() const override { return false; }
 
  private:
   sculpt::RateInput input_;

@@ -75,7 +75,6 @@ class Sticks : public RateSource {
     EXPECT_LE(share, 1);
     shaken = share;
   }
-  bool can_rumble() const override { return true; }
   double shaken = 0;
 
  private:
@@ -171,7 +170,6 @@ TEST(Rates, AddUpAndShakeByTheForce) {
    public:
     std::optional<RateInput> poll() override { return input; }
     void rumble(double share) override { shaken = share; }
-    bool can_rumble() const override { return true; }
     RateInput input;
     double shaken = -1;
   };

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <bit>
 #include <cstdio>
 #include <functional>
 
@@ -14,6 +13,7 @@
 #include "sculpt/haptics/scripted_device.h"
 #include "sculpt/haptics/servo.h"
 #include "sculpt/haptics/simulated_hand.h"
+#include "sculpt/hash.h"
 #include "sculpt/stroke.h"
 #include "tests/sculpt/sessions.h"
 
@@ -80,16 +80,16 @@ TEST(DeviceStrokes, OneTraceThroughEveryDeviceGivesOneHash) {
             scripted);
 }
 
-/// FNV-1a over what a hand meets in each tick of a minute of strokes with pauses.
+/// The hash of what a hand meets in each tick of a minute of strokes with pauses.
 std::vector<std::uint64_t> minute_of_ticks(int threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   TestSession session({"new box 2 2 1 size 0.3 0.3 0.2", "levels 1", "pin where z < 0.01", "set damping 5",
                        "tool pull radius 0.15 strength 200"});
   std::vector<std::uint64_t> hashes;
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  Hash hash;
   const auto add = [&](const Vector3d& v) {
-    for (int i = 0; i < 3; ++i) hash = (hash ^ std::bit_cast<std::uint64_t>(v[i])) * 0x100000001b3u;
+    for (int i = 0; i < 3; ++i) hash.add(v[i]);
   };
   const Vector3d top(0.15, 0.15, 0.2);
   for (int part = 0; part < 12; ++part) {
@@ -105,7 +105,7 @@ std::vector<std::uint64_t> minute_of_ticks(int threads) {
       if (stroke.tick(stroke_pose(served.sample))) channel.publish(stroke.felt(tick + 60));
       add(served.sample.pose.position);
       add(served.safety.force);
-      hashes.push_back(hash);
+      hashes.push_back(hash.value());
     }
     (void)stroke.finish();
   }

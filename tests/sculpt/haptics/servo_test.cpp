@@ -109,9 +109,8 @@ TEST(Servo, TheSafetyChainKeepsEvenAHeldForcePassive) {
   const SafetyLimits limits;
   const Pressed held = press_on_floor(Message::held_force, limits, light_hand());
   std::printf("held force through the safety chain: %.3f mJ\n", 1e3 * held.most_work);
-  // What may be given out before any is taken in, and one tick's mistake: 8 N over the change of a step, by 8 N and
-  // the hand's own 5 N (100 N/m · 4 cm, 4 N s/m · 0.2 m/s), a · dt² = 0.13 mm.
-  EXPECT_LE(held.most_work, limits.start_energy + 8 * (13 / 0.1) * 1e-6);
+  // What may be given out before any is taken in, half of it again for gentleness, and one tick's mistake.
+  EXPECT_LE(held.most_work, 1.5 * limits.start_energy + 0.02e-3);
   EXPECT_LE(held.largest_force, limits.max_force);
 }
 
