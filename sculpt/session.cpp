@@ -83,6 +83,8 @@ void Session::execute(const io::SessionLine& line) {
   const Arguments arguments = bind(command, line);
   start_ = document_.state();
   const std::size_t depth = done_.size(), steps = steps_.size();
+  first_step_ = steps;
+  wanted_steps_ = 0;
   const auto take_back = [&] {  // a failed command changes nothing
     if (done_.size() != depth || command.effect != Effect::state) return;
     document_.assign(start_);
@@ -201,17 +203,21 @@ void Session::step_done(const StepRecord& record, const fem::Loads& tool) {
   if (step_trace_.is_open())
     step_trace_.write(step_trace_row(document_, tool, record, steps_.size(), current_.number));
   trace("step");
-  if (line_count_ > 0)
-    progress(static_cast<double>(lines_) / static_cast<double>(line_count_), fmt::format("step {}", steps_.size()));
+  const double taken = static_cast<double>(steps_.size() - first_step_);
+  const double share = line_count_ > 0     ? static_cast<double>(lines_) / static_cast<double>(line_count_)
+                       : wanted_steps_ > 0 ? std::min(1.0, taken / wanted_steps_)
+                                           : -1;
+  progress(share, fmt::format("step {}", steps_.size()));
 }
 
-void Session::require_steps(double count) const {
+void Session::require_steps(double count) {
   const double taken = static_cast<double>(steps_.size());
   if (options_.until_step >= 0) count = std::min(count, static_cast<double>(options_.until_step) - taken);
   if (taken + count > static_cast<double>(options_.limits.steps))
     throw Error(ErrorCode::limit_exceeded,
                 fmt::format("{:.0f} steps after {:.0f} are more than {}; raise --max-steps", count, taken,
                             options_.limits.steps));
+  wanted_steps_ = taken + count - static_cast<double>(first_step_);
 }
 
 bool Session::stop_requested() const {

@@ -56,6 +56,7 @@ struct SessionOptions {
   Renderer* renderer = nullptr;  // null: pictures are skipped, and said so
   fem::Clock clock = nullptr;
   std::function<void(const std::string&)> print;  // messages for the user
+  /// Of a file, or of a line alone: −1 where the fraction is not known. What it throws ends the line.
   std::function<void(double fraction, const std::string& what)> progress;
 };
 
@@ -102,7 +103,7 @@ class Session {
   void progress(double fraction, const std::string& what) const;
   /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
   /// (limit_exceeded).
-  void require_steps(double count) const;
+  void require_steps(double count);
   /// Called for every simulation step, with the loads of the tool that acted: counts and traces.
   void step_done(const StepRecord& record, const fem::Loads& tool = {});
   /// True once `until_step` is reached: long commands end early.
@@ -147,6 +148,8 @@ class Session {
   std::ofstream journal_, trace_;
   StepTrace step_trace_;
   std::size_t lines_ = 0, line_count_ = 0;
+  std::size_t first_step_ = 0;  // of the line that runs
+  double wanted_steps_ = 0;     // of that line, as far as is known
   std::uint64_t columns_stamp_ = 0;
 };
 

@@ -26,6 +26,14 @@ std::filesystem::path settings_folder() {
   return {};
 }
 
+// Beside an installed program, else where it was built from.
+std::filesystem::path samples_folder() {
+  std::error_code failure;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failure);
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share" / "argil" / "samples";
+  return std::filesystem::is_directory(installed, failure) ? installed : std::filesystem::path(ARGIL_SAMPLES);
+}
+
 }  // namespace
 
 int studio(const StudioArguments& arguments) {
@@ -36,9 +44,10 @@ int studio(const StudioArguments& arguments) {
   bench.out = arguments.out;
   bench.limits = arguments.limits;
   bench.clock = seconds;
+  bench.samples = samples_folder();
   if (arguments.script.empty()) {
-    argil::studio::run_window(
-        {bench, arguments.file, settings_folder().empty() ? settings_folder() : settings_folder() / "keys"});
+    bench.settings = settings_folder();
+    argil::studio::run_window({bench, arguments.file});
     return k_well;
   }
   const std::string script = io::read_file(arguments.script);

@@ -29,7 +29,11 @@ const std::vector<std::string>& block_lines() {
   return lines;
 }
 
-Bench::Bench(BenchOptions options) : options_(std::move(options)) {
+Bench::Bench(BenchOptions options)
+    : options_(std::move(options)),
+      keeping_(options_.out),
+      recent_(options_.settings.empty() ? options_.settings : options_.settings / "recent") {
+  shown_recent_ = std::make_shared<const std::vector<std::filesystem::path>>(recent_.all());
   begin_session(".");
 }
 
@@ -38,9 +42,10 @@ Bench::~Bench() = default;
 void Bench::begin_session(const std::filesystem::path& read_root) {
   stroke_.reset();
   session_.reset();  // closes its journal before the next one takes the name
+  keeping_.set_aside();
   sculpt::SessionOptions session;
   session.read_root = read_root;
-  session.out = options_.out;
+  session.out = keeping_.folder();
   session.limits = options_.limits;
   session.renderer = options_.renderer;
   session.clock = options_.clock;
@@ -48,14 +53,32 @@ void Bench::begin_session(const std::filesystem::path& read_root) {
     const bool guard = text.starts_with("guard") || text.starts_with("the body is frozen");
     say(guard ? MessageKind::warning : MessageKind::note, text);
   };
+  session.progress = [this](double share, const std::string& what) { go_on(share, what); };
   session_ = std::make_unique<sculpt::Session>(std::move(session));
   marks_.clear();
   history_.clear();
-  file_.clear();
-  lines_ = saved_lines_ = 0;
+  lines_ = 0;
+  mark_saved({});
   playing_ = played_last_ = false;
   missed_ticks_ = 0;
   changed_ = whole_ = history_changed_ = shade_again_ = true;
+}
+
+void Bench::go_on(double share, const std::string& what) const {
+  if (on_progress && !on_progress(share, what))
+    throw Error(ErrorCode::refused, "it was cancelled, and has changed nothing");
+}
+
+void Bench::used(const std::filesystem::path& file) {
+  recent_.add(file);
+  shown_recent_ = std::make_shared<const std::vector<std::filesystem::path>>(recent_.all());
+}
+
+void Bench::mark_saved(const std::filesystem::path& file) {
+  file_ = file;
+  saved_lines_ = lines_;
+  keeping_.kept(session_->options().read_root, file);
+  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
 }
 
 void Bench::say(MessageKind kind, const std::string& text) {
@@ -152,22 +175,31 @@ void Bench::redo() {
   run(fmt::format("redo {}", above - depth));
 }
 
+void Bench::run_all(const std::vector<io::SessionLine>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t depth = session_->undo_depth();
+    const std::string line = io::format_line(lines[i].tokens);
+    go_on(static_cast<double>(i) / static_cast<double>(lines.size()), line);
+    run_one(line);
+    mark_change(depth, false);
+  }
+}
+
 void Bench::open(const std::filesystem::path& file) {
   try {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (file.extension() != ".argil") {
-      const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
       begin_session(folder);
-      run_together({fmt::format("open \"{}\"", file.filename().string()), "levels 1"});
+      if (run_together({fmt::format("open \"{}\"", file.filename().string()), "levels 1"})) {
+        mark_saved({});
+        used(file);
+      }
     } else {
       const auto lines = io::parse_session(io::read_file(file), file.filename().string());
-      begin_session(file.has_parent_path() ? file.parent_path() : ".");
-      for (const io::SessionLine& line : lines) {
-        const std::size_t depth = session_->undo_depth();
-        if (!run_one(io::format_line(line.tokens))) break;
-        mark_change(depth, false);
-      }
-      file_ = file;
-      saved_lines_ = lines_;
+      begin_session(folder);
+      run_all(lines);
+      mark_saved(file);
+      used(file);
     }
   } catch (const Error& error) {
     say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
@@ -177,12 +209,73 @@ void Bench::open(const std::filesystem::path& file) {
   changed_ = whole_ = history_changed_ = shade_again_ = true;
 }
 
+void Bench::open_sample(const std::filesystem::path& file) {
+  try {
+    const auto lines = io::parse_session(io::read_file(file), file.filename().string());
+    begin_session(file.parent_path());
+    run_all(lines);
+    mark_saved({});
+  } catch (const Error& error) {
+    say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
+  }
+  changed_ = whole_ = history_changed_ = shade_again_ = true;
+}
+
+void Bench::begin_block() {
+  begin_session(".");
+  if (run_together(block_lines())) mark_saved({});
+}
+
+void Bench::bring_back(const UnsavedWork& work) {
+  try {
+    const auto lines = io::parse_session(whole_lines(work.journal), work.journal.filename().string());
+    begin_session(work.read_root);
+    file_ = work.file;
+    run_all(lines);
+    keeping_.forget(work);
+    say(MessageKind::note, fmt::format("{} changes that were not saved are back", work.changes));
+  } catch (const Error& error) {
+    // Its files stay until all of it is back.
+    say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
+  }
+  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
+  changed_ = whole_ = history_changed_ = shade_again_ = true;
+}
+
+void Bench::throw_away(const UnsavedWork& work) {
+  keeping_.forget(work);
+  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
+  changed_ = true;
+}
+
+void Bench::list(const std::string& typed) {
+  listing_ = std::make_shared<const FolderListing>(list_folder(typed));
+  changed_ = true;
+}
+
+void Bench::look_for_samples() {
+  if (!samples_) samples_ = std::make_shared<const std::vector<Sample>>(find_samples(options_.samples));
+  changed_ = true;
+}
+
+void Bench::write_keys(const std::string& lines) {
+  if (options_.settings.empty()) return;
+  try {
+    std::filesystem::create_directories(options_.settings);
+    io::write_file(options_.settings / "keys", lines);
+  } catch (const Error& error) {
+    say(MessageKind::error, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    say(MessageKind::error, error.what());
+  }
+}
+
 void Bench::save(const std::filesystem::path& file) {
   if (stroke_) end_stroke(false);
   try {
     io::write_file(file, io::read_file(session_->journal_path()));
-    file_ = file;
-    saved_lines_ = lines_;
+    mark_saved(file);
+    used(file);
     say(MessageKind::note, "saved as " + file.string());
   } catch (const Error& error) {
     say(MessageKind::error, error.what());

@@ -8,13 +8,17 @@
 
 #include "sculpt/session.h"
 #include "sculpt/stroke.h"
+#include "tools/studio/file_browser.h"
+#include "tools/studio/safekeeping.h"
 #include "tools/studio/snapshot.h"
 
 namespace argil::studio {
 
 struct BenchOptions {
-  std::filesystem::path out = "out/studio";  // journal and results
+  std::filesystem::path out = "out/studio";  // journal and results; another beside it if a window has taken it
   sculpt::Renderer* renderer = nullptr;      // for the command `render`; may be null
+  std::filesystem::path samples{};           // folder of the samples; empty: there are none
+  std::filesystem::path settings{};          // folder of the sculptor's settings; empty: none are kept
   sculpt::Limits limits;
   fem::Clock clock = nullptr;
 };
@@ -45,6 +49,17 @@ class Bench {
   void open(const std::filesystem::path& file);
   /// Writes the journal there, whole or not at all.
   void save(const std::filesystem::path& file);
+  /// A session as one opens it, but as a new one without a name.
+  void open_sample(const std::filesystem::path& file);
+  /// A new session with a block of clay, which is no loss if nothing is done to it.
+  void begin_block();
+  /// Work that was not saved becomes the session: every whole line that can run. It stays unsaved.
+  void bring_back(const UnsavedWork& work);
+  void throw_away(const UnsavedWork& work);
+  // What dialogues show.
+  void list(const std::string& typed);
+  void look_for_samples();
+  void write_keys(const std::string& lines);
 
   /// The tool becomes the document's if it is not; that and the stroke are undone together.
   void begin_stroke(const StrokeStart& start);
@@ -69,9 +84,16 @@ class Bench {
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
   /// Called for each line that runs; for tests.
   std::function<void()> on_line;
+  /// Called while a line or a file runs, on this thread; the share done is −1 where it is not known. False ends the
+  /// line, which then changes nothing.
+  std::function<bool(double share, const std::string& what)> on_progress;
 
  private:
   void begin_session(const std::filesystem::path& read_root);
+  void run_all(const std::vector<io::SessionLine>& lines);
+  void mark_saved(const std::filesystem::path& file);
+  void used(const std::filesystem::path& file);
+  void go_on(double share, const std::string& what) const;
   bool run_one(const std::string& line);
   void mark_change(std::size_t depth_before, bool joins_last);
   void remember(const std::string& line, std::size_t depth_before, bool repeats);
@@ -80,6 +102,12 @@ class Bench {
   void read_document(Snapshot& next);
 
   BenchOptions options_;
+  Safekeeping keeping_;
+  std::shared_ptr<const std::vector<UnsavedWork>> unsaved_;  // as the window sees it
+  RecentFiles recent_;
+  std::shared_ptr<const std::vector<std::filesystem::path>> shown_recent_;
+  std::shared_ptr<const FolderListing> listing_;
+  std::shared_ptr<const std::vector<Sample>> samples_;
   std::unique_ptr<sculpt::Session> session_;
   std::vector<std::size_t> marks_;  // depths of the undo stack at which an action of the user ended
   std::vector<HistoryEntry> history_;

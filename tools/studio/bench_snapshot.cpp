@@ -163,6 +163,10 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   next->redo_depth = session_->redo_depth();
   next->journal_lines = lines_;
   next->saved = lines_ == saved_lines_;
+  next->unsaved = unsaved_;
+  next->recent = shown_recent_;
+  next->listing = listing_;
+  next->samples = samples_;
   next->file = file_.string();
   next->solid_number = solids_;
   next->playing = playing_;

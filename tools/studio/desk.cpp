@@ -112,6 +112,12 @@ bool Desk::perform(Action action) {
     case new_block:
       workshop->run_together(block_lines());
       return true;
+    case samples:
+      open_dialogue(Dialogue::samples);
+      return true;
+    case unsaved_work:
+      open_dialogue(Dialogue::unsaved);
+      return true;
     case open:
       open_dialogue(Dialogue::open, folder == "." ? "" : folder.string() + "/");
       return true;

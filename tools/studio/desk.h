@@ -48,7 +48,7 @@ struct Reading {
 };
 
 /// What has the keyboard in front of everything else.
-enum class Dialogue { none, search, keys, open, save };
+enum class Dialogue { none, search, keys, open, save, samples, unsaved };
 
 struct Desk {
   Workshop* workshop = nullptr;
@@ -63,8 +63,13 @@ struct Desk {
   std::string typed;                                                    // in the dialogue
   std::size_t chosen = 0;                                               // of what a search found
   bool retake_focus = false;
-  float panel_height = 0;  // that the panel wants
-  bool card = true;        // of the first minute
+  std::string listed;                     // what the workshop was asked to list last
+  std::vector<unsigned> sample_pictures;  // of Snapshot::samples, as the graphics card names them
+  std::optional<Action> rebinds;          // waits for its new key
+  std::string key_note;
+  bool unsaved_seen = false;  // the offer to bring work back was answered
+  float panel_height = 0;     // that the panel wants
+  bool card = true;           // of the first minute
   bool quits = false, takes_picture = false;
   std::filesystem::path folder = ".";  // where files are opened and saved
   double frame_ms = 0, frames_a_second = 0;

@@ -2,41 +2,19 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "tools/studio/file_dialogues.h"
+#include "tools/studio/key_editor.h"
 #include "tools/studio/search.h"
+#include "tools/studio/sheet.h"
 
 namespace argil::studio {
 
 namespace {
 
 constexpr std::size_t k_shown = 9;
-
-Rect open_sheet(Desk& desk, const char* name, const Rect& place, int width, int height) {
-  Ui& ui = *desk.ui;
-  const Tokens& t = ui.tokens();
-  ui.come_to_front();
-  // What lies behind is dimmed, and takes no clicks: one beside the sheet closes it.
-  ui.begin_panel("behind", {0, 0, static_cast<float>(width), static_cast<float>(height)}, t.shade, 0);
-  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
-  ImGui::SetCursorScreenPos({0, 0});
-  if (ImGui::InvisibleButton("##behind", {static_cast<float>(width), static_cast<float>(height)}) &&
-      desk.dialogue == desk.shown_dialogue)
-    desk.dialogue = Dialogue::none;
-  ui.end_panel();
-  ui.begin_panel(name, place, 0, 0);
-  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
-  ImDrawList& draw = ui.list();
-  draw.PushClipRectFullScreen();
-  ui.shadow(draw, place, 8);
-  draw.PopClipRect();
-  ui.box(draw, place, t.raised, 8);
-  ui.frame(draw, place, t.outline, 8);
-  return place;
-}
 
 void take(Desk& desk, const Found& found, const Perform& perform) {
   if (found.action != nullptr) {
@@ -121,110 +99,6 @@ void draw_search(Desk& desk, const Layout& layout, const Perform& perform, int w
   ui.end_panel();
 }
 
-void draw_keys(Desk& desk, int width, int height) {
-  Ui& ui = *desk.ui;
-  const Tokens& t = ui.tokens();
-  std::vector<std::array<std::string, 2>> lines;
-  for (const Gesture& gesture : gestures()) lines.push_back({gesture.gesture, gesture.help});
-  std::size_t tools = 0;
-  for (const ActionInfo& action : action_table()) {
-    if (desk.bindings.word_of(action.action).empty()) continue;
-    if (action.action >= Action::tool_1 && action.action <= Action::tool_9) {
-      if (tools < shelf_tools().size())
-        lines.push_back({desk.bindings.word_of(action.action), shelf_tools()[tools].label});
-      ++tools;
-    } else {
-      lines.push_back({desk.bindings.word_of(action.action), action.label});
-    }
-  }
-  const std::size_t gesture_count = gestures().size(), keys = lines.size() - gesture_count;
-  const float row = ui.px(24), column = ui.px(250), head = ui.px(54);
-  const std::size_t columns = 3, per_column = (keys + columns - 1) / columns;
-  const float wide = column * static_cast<float>(columns) + ui.px(40);
-  const float gestures_height = row * static_cast<float>(gesture_count) + ui.px(14);
-  const float high = head + gestures_height + row * static_cast<float>(per_column) + ui.px(20);
-  const Rect place{0.5F * (static_cast<float>(width) - wide),
-                   std::max(ui.px(40), 0.5F * (static_cast<float>(height) - high)), wide, high};
-  open_sheet(desk, "keys", place, width, height);
-  ImDrawList& draw = ui.list();
-  ui.text(draw, ui.fonts().strong, {place.x + ui.px(20), place.y + ui.px(10), wide, ui.px(34)}, t.text,
-          "Keys and gestures");
-  ui.text(draw, ui.fonts().small, {place.x, place.y + ui.px(10), wide - ui.px(20), ui.px(34)}, t.faint,
-          "yours are read from argil/keys in the folder of settings", Side::right);
-  const auto put = [&](const std::array<std::string, 2>& line, float x, float y, float key_width) {
-    ui.text(draw, ui.fonts().small_strong, {x, y, key_width, row}, t.accent, line[0]);
-    ui.text(draw, ui.fonts().small, {x + key_width, y, column, row}, t.text, line[1]);
-  };
-  for (std::size_t i = 0; i < gesture_count; ++i)
-    put(lines[i], place.x + ui.px(20), place.y + head + row * static_cast<float>(i), ui.px(170));
-  for (std::size_t i = 0; i < keys; ++i)
-    put(lines[gesture_count + i], place.x + ui.px(20) + column * static_cast<float>(i / per_column),
-        place.y + head + gestures_height + row * static_cast<float>(i % per_column), ui.px(112));
-  ui.end_panel();
-}
-
-void draw_file(Desk& desk, bool saves, int width, int height) {
-  Ui& ui = *desk.ui;
-  const Tokens& t = ui.tokens();
-  // Files that can be opened, beneath what is typed.
-  const std::filesystem::path typed(desk.typed);
-  const std::filesystem::path folder = desk.typed.empty()                     ? "."
-                                       : std::filesystem::is_directory(typed) ? typed
-                                       : typed.has_parent_path()              ? typed.parent_path()
-                                                                              : ".";
-  std::vector<std::string> names;
-  if (!saves) {
-    std::error_code failure;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
-      const std::string name = entry.path().filename().string();
-      const std::string start = std::filesystem::is_directory(typed) ? "" : typed.filename().string();
-      const auto ending = entry.path().extension();
-      const bool fits = entry.is_directory(failure) || ending == ".argil" || ending == ".vtk" || ending == ".vtu" ||
-                        ending == ".mesh" || ending == ".msh" || ending == ".inp" || ending == ".ovm";
-      if (fits && !name.starts_with('.') && (start.empty() || name.starts_with(start)))
-        names.push_back(entry.is_directory(failure) ? name + "/" : name);
-    }
-    std::sort(names.begin(), names.end());
-    if (names.size() > 10) names.resize(10);
-  }
-  const float wide = ui.px(560), field = ui.px(48), row = ui.px(28);
-  const float high = ui.px(44) + field + row * static_cast<float>(names.size()) + ui.px(62);
-  const Rect place{0.5F * (static_cast<float>(width) - wide), ui.px(90), wide, high};
-  open_sheet(desk, "file", place, width, height);
-  ImDrawList& draw = ui.list();
-  ui.text(draw, ui.fonts().strong, {place.x + ui.px(20), place.y + ui.px(10), wide, ui.px(28)}, t.text,
-          saves ? "Save the session" : "Open a session or a mesh");
-  const Rect box{place.x + ui.px(16), place.y + ui.px(46), wide - ui.px(32), ui.px(36)};
-  ui.box(draw, box, t.well);
-  ui.frame(draw, box, t.accent);
-  bool entered = false;
-  const bool focus = desk.dialogue != desk.shown_dialogue || std::exchange(desk.retake_focus, false);
-  ui.text_field("File", {box.x + ui.px(4), box.y, box.width - ui.px(8), box.height}, desk.typed,
-                saves ? "name.argil" : "a folder, .argil, or a volume mesh", focus, entered,
-                saves ? "Where the session is written" : "What is opened");
-  ui.set_cursor(place.x + ui.px(16), box.bottom() + ui.px(6), wide - ui.px(32));
-  for (const std::string& name : names)
-    if (ui.list_row(name, "", false, false, "Takes this file")) {
-      desk.typed = (folder == "." ? std::filesystem::path(name) : folder / name).string();
-      desk.retake_focus = true;
-    }
-  const float y = place.bottom() - ui.px(48);
-  const bool done =
-      ui.text_button(saves ? "Save now" : "Open now", {place.right() - ui.px(116), y, ui.px(100), ui.px(32)},
-                     saves ? "Save" : "Open", true, saves ? "Writes the session" : "Opens the file");
-  if (ui.text_button("Leave", {place.right() - ui.px(224), y, ui.px(100), ui.px(32)}, "Cancel", false,
-                     "Leaves all as it is"))
-    desk.dialogue = Dialogue::none;
-  if ((done || entered) && !desk.typed.empty()) {
-    std::filesystem::path file(desk.typed);
-    if (saves && file.extension() != ".argil") file += ".argil";
-    desk.dialogue = Dialogue::none;
-    desk.folder = file.has_parent_path() ? file.parent_path() : ".";
-    desk.workshop->post([file, saves](Bench& bench) { saves ? bench.save(file) : bench.open(file); });
-  }
-  ui.end_panel();
-}
-
 }  // namespace
 
 bool search_key(Desk& desk, int pressed, const Perform&) {
@@ -243,11 +117,17 @@ void draw_dialogues(Desk& desk, const Layout& layout, const Perform& perform, in
       draw_search(desk, layout, perform, width, height);
       break;
     case Dialogue::keys:
-      draw_keys(desk, width, height);
+      draw_key_editor(desk, width, height);
       break;
     case Dialogue::open:
     case Dialogue::save:
       draw_file(desk, which == Dialogue::save, width, height);
+      break;
+    case Dialogue::samples:
+      draw_samples(desk, width, height);
+      break;
+    case Dialogue::unsaved:
+      draw_unsaved(desk, width, height);
       break;
   }
   desk.shown_dialogue = which;

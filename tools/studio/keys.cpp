@@ -110,6 +110,9 @@ const std::array<ActionInfo, k_action_count>& action_table() {
       {screenshot, "screenshot", "Picture of the view",
        "Writes what the viewport shows as a PNG beside the journal", "File", "F12"},
       {quit, "quit", "Quit", "Leaves; the journal keeps what was done", "File", "Ctrl-Q"},
+      {samples, "samples", "Samples…", "Shows the samples with their pictures; one opens as a new session", "File",
+       "Ctrl-Shift-O"},
+      {unsaved_work, "unsaved_work", "Unsaved work…", "Brings back what earlier windows left unsaved", "File", ""},
       {undo, "undo", "Undo", "Takes back the last stroke or command", "Edit", "Ctrl-Z"},
       {redo, "redo", "Redo", "Brings back what undo took", "Edit", "Ctrl-Shift-Z"},
       {search, "search", "Search commands…", "Finds any command by name or meaning and runs it", "Help", "F3"},
@@ -166,7 +169,7 @@ const std::vector<Gesture>& gestures() {
       {"Drag beside it", "orbits"},
       {"Middle drag", "orbits"},
       {"Shift-middle drag", "pans"},
-      {"Wheel", "zooms; while cutting away, moves the plane; during a stroke, moves the tool in depth"},
+      {"Wheel", "zooms; moves the cut, and a tool in depth"},
       {"Ctrl held", "inverts the tool"},
       {"Shift held", "smooths; on a number, drags finely"},
       {"Double click a number", "resets it"},
@@ -209,6 +212,36 @@ void Bindings::read(std::string_view text, const std::string& file_name) {
     chords_ = before;
     throw Error(error.code(), error.what(), fmt::format("{}:{}", file_name, number));
   }
+}
+
+const std::vector<KeyPreset>& key_presets() {
+  static const std::vector<KeyPreset> all{
+      {"Argil's keys", "Those that Argil comes with; they are Blender's where it has one", ""},
+      {"ZBrush's keys", "Sizes, intensity, framing and subdivision as in ZBrush",
+       "brush_radius = S\n"
+       "brush_strength = U\n"
+       "frame_all = F\n"
+       "wireframe = Shift-F\n"
+       "finer = Ctrl-D\n"
+       "coarser = Shift-D\n"},
+  };
+  return all;
+}
+
+std::optional<Action> Bindings::bind(Action action, const Chord& chord) {
+  const std::optional<Action> had = action_of(chord);
+  if (had && *had != action) chords_[static_cast<std::size_t>(*had)] = Chord{};
+  chords_[static_cast<std::size_t>(action)] = chord;
+  return had == action ? std::nullopt : had;
+}
+
+std::string Bindings::changes() const {
+  const Bindings usual;
+  std::string lines;
+  for (const ActionInfo& action : action_table())
+    if (key_of(action.action) != usual.key_of(action.action))
+      lines += fmt::format("{} = {}\n", action.word, word_of(action.action));
+  return lines;
 }
 
 std::optional<Action> Bindings::action_of(const Chord& chord) const {

@@ -35,6 +35,8 @@ enum class Action {
   save_as,
   screenshot,
   quit,
+  samples,
+  unsaved_work,
   undo,
   redo,
   search,
@@ -94,6 +96,12 @@ struct Gesture {
 };
 [[nodiscard]] const std::vector<Gesture>& gestures();
 
+/// Keys as another program has them, as lines that are read over the table's.
+struct KeyPreset {
+  const char *name, *help, *lines;
+};
+[[nodiscard]] const std::vector<KeyPreset>& key_presets();
+
 class Bindings {
  public:
   /// Those of the table.
@@ -105,6 +113,10 @@ class Bindings {
   [[nodiscard]] Chord key_of(Action action) const { return chords_[static_cast<std::size_t>(action)]; }
   [[nodiscard]] std::string word_of(Action action) const { return word(key_of(action)); }
   [[nodiscard]] std::optional<Action> action_of(const Chord& chord) const;
+  /// Gives the action this key, none if its key is 0. Who had it loses it, and is returned.
+  std::optional<Action> bind(Action action, const Chord& chord);
+  /// The lines that `read` needs to make these of the table's.
+  [[nodiscard]] std::string changes() const;
   /// Two actions with one key, if there are such.
   [[nodiscard]] std::optional<std::array<Action, 2>> collision() const;
 

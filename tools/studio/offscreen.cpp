@@ -10,7 +10,7 @@ Offscreen::Offscreen(const OffscreenOptions& options, const std::filesystem::pat
   workshop_ = std::make_unique<Workshop>(options.bench);
   resize(options.width, options.height, options.scale);
   if (file.empty())
-    workshop_->run_together(block_lines());
+    workshop_->post([](Bench& bench) { bench.begin_block(); });
   else
     workshop_->post([file](Bench& bench) { bench.open(file); });
   workshop_->advance(0);

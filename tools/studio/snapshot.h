@@ -9,6 +9,8 @@
 
 #include "sculpt/document.h"
 #include "sculpt/picture.h"
+#include "tools/studio/file_browser.h"
+#include "tools/studio/safekeeping.h"
 
 namespace argil::studio {
 
@@ -69,7 +71,11 @@ struct Snapshot {
   std::shared_ptr<const std::vector<HistoryEntry>> history;
   std::size_t undo_depth = 0, redo_depth = 0, journal_lines = 0;
   bool saved = true;
-  std::string file;  // empty: none yet
+  std::string file;                                         // empty: none yet
+  std::shared_ptr<const std::vector<UnsavedWork>> unsaved;  // of earlier windows, the latest first
+  std::shared_ptr<const std::vector<std::filesystem::path>> recent;
+  std::shared_ptr<const FolderListing> listing;        // null before the first
+  std::shared_ptr<const std::vector<Sample>> samples;  // null until they were looked for
 
   // What goes on.
   bool playing = false;

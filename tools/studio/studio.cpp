@@ -8,8 +8,10 @@
 #include <cfloat>
 
 #include "tools/studio/dialogues.h"
+#include "tools/studio/key_editor.h"
 #include "tools/studio/panels.h"
 #include "tools/studio/ui_renderer.h"
+#include "tools/studio/work_notes.h"
 
 namespace argil::studio {
 
@@ -72,7 +74,9 @@ Studio::~Studio() {
 
 void Studio::perform(Action action) {
   if (action == Action::cancel) {
-    if (desk_.dialogue != Dialogue::none)
+    if (workshop_->work())
+      workshop_->cancel_work();
+    else if (desk_.dialogue != Dialogue::none)
       desk_.dialogue = Dialogue::none;
     else
       viewport_->perform(desk_, action);
@@ -108,6 +112,7 @@ void Studio::take_keys(const Input& input) {
       viewport_->key_released(desk_, event.key);
       continue;
     }
+    if (edit_key(desk_, {event.key, control_, shift_, alt_})) continue;
     if (search_key(desk_, event.key, [this](Action action) { perform(action); })) continue;
     const auto action = desk_.bindings.action_of({event.key, control_, shift_, alt_});
     if (!action) continue;
@@ -140,6 +145,9 @@ void Studio::frame(const Input& input) {
     desk_.seen_message = desk_.now->messages.back().number;
     desk_.message_since = desk_.time;
   }
+  if (desk_.now->samples && desk_.sample_pictures.empty())
+    for (const Sample& sample : *desk_.now->samples)
+      desk_.sample_pictures.push_back(renderer_->add_picture(sample.picture));
   if (desk_.now->stroke) {
     desk_.force_plot.push_back(static_cast<float>(desk_.now->stroke->force.norm()));
     if (desk_.force_plot.size() > k_plot_points) desk_.force_plot.erase(desk_.force_plot.begin());
@@ -172,6 +180,8 @@ void Studio::frame(const Input& input) {
   draw_timeline(desk_, layout, perform_here);
   draw_status(desk_, layout);
   draw_hints(desk_, layout, perform_here);
+  draw_work(desk_, layout);
+  draw_offer(desk_, layout);
   draw_dialogues(desk_, layout, perform_here, input.width, input.height);
   ui_->end_frame();
   ImGui::Render();

@@ -55,6 +55,17 @@ UiRenderer::~UiRenderer() {
   gl_->DeleteBuffers(1, &vertices_);
   gl_->DeleteBuffers(1, &indices_);
   if (atlas_ != 0) gl_->DeleteTextures(1, &atlas_);
+  for (const GLuint picture : pictures_) gl_->DeleteTextures(1, &picture);
+}
+
+void UiRenderer::load(GLuint texture, int width, int height, const unsigned char* rgba) const {
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, texture);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    gl_->TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl_->TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }
 
 void UiRenderer::load_atlas() {
@@ -62,13 +73,15 @@ void UiRenderer::load_atlas() {
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&rgba, &width, &height);
   if (atlas_ == 0) gl_->GenTextures(1, &atlas_);
-  gl_->ActiveTexture(GL_TEXTURE0);
-  gl_->BindTexture(GL_TEXTURE_2D, atlas_);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    gl_->TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    gl_->TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  load(atlas_, width, height, rgba);
+}
+
+unsigned UiRenderer::add_picture(const sculpt::Picture& picture) {
+  GLuint texture = 0;
+  gl_->GenTextures(1, &texture);
+  pictures_.push_back(texture);
+  load(texture, picture.width, picture.height, picture.rgba.data());
+  return texture;
 }
 
 void UiRenderer::draw(const ImDrawData& data) const {
@@ -98,6 +111,8 @@ void UiRenderer::draw(const ImDrawData& data) const {
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
       gl.Scissor(static_cast<GLint>(clip.x), height - static_cast<GLint>(clip.w),
                  static_cast<GLsizei>(clip.z - clip.x), static_cast<GLsizei>(clip.w - clip.y));
+      const auto named = static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID()));
+      gl.BindTexture(GL_TEXTURE_2D, named != 0 ? named : atlas_);
       gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
                       place_of(command.IdxOffset * sizeof(ImDrawIdx)));
     }

@@ -105,7 +105,7 @@ void run_window(const WindowOptions& options) {
 
   Workshop workshop(options.bench);
   if (options.file.empty())
-    workshop.run_together(block_lines());
+    workshop.post([](Bench& bench) { bench.begin_block(); });
   else
     workshop.post([file = options.file](Bench& bench) { bench.open(file); });
   workshop.start();
@@ -116,8 +116,9 @@ void run_window(const WindowOptions& options) {
   input.scale = std::max(0.75F, std::round(4 * scale_x) / 4);
   std::error_code failure;
   StudioOptions studio_options{.scale = input.scale, .virtual_clock = false, .card = true, .keys = {}};
-  if (!options.keys.empty() && std::filesystem::is_regular_file(options.keys, failure))
-    studio_options.keys = io::read_file(options.keys);
+  const std::filesystem::path keys = options.bench.settings / "keys";
+  if (!options.bench.settings.empty() && std::filesystem::is_regular_file(keys, failure))
+    studio_options.keys = io::read_file(keys);
   Studio studio(gl, workshop, studio_options);
   glfwSetWindowUserPointer(window.get(), &input);
   listen(window.get());

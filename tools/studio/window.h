@@ -10,7 +10,6 @@ namespace argil::studio {
 struct WindowOptions {
   BenchOptions bench;
   std::filesystem::path file;  // empty: a block
-  std::filesystem::path keys;  // the sculptor's own; empty or not there: those of the table
 };
 
 /// Runs until the window is closed. @throws Error (unsupported) where there is no display or no OpenGL 3.3.

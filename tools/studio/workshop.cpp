@@ -11,6 +11,7 @@ constexpr double k_tick = 1e-3;     // [s]
 constexpr double k_follow = 0.008;  // [s], in which the device comes near the pointer: frames become a smooth way
 constexpr long k_most_ticks = 60;   // at once; a slower simulation falls behind the clock instead of the hand
 constexpr double k_longest_wait = 0.5;  // [s]
+constexpr double k_report = 0.05;       // [s], between two reports of work
 
 using Clock = std::chrono::steady_clock;
 
@@ -20,6 +21,7 @@ Workshop::Workshop(BenchOptions options) : bench_(std::move(options)) {
   bench_.on_line = [this] {
     if (frame_thread_.load() == std::this_thread::get_id()) ++lines_in_frames_;
   };
+  bench_.on_progress = [this](double share, const std::string& what) { return report_work(share, what); };
   publish();
 }
 
@@ -28,6 +30,7 @@ Workshop::~Workshop() {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
+  cancelled_.store(true);  // of what runs: the window goes
   woken_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
@@ -68,13 +71,32 @@ void Workshop::cancel_stroke() {
   post([](Bench& bench) { bench.cancel_stroke(); });
 }
 
+// In virtual time work takes none, and nothing is to be shown.
+bool Workshop::report_work(double share, const std::string& what) {
+  if (!works_ || thread_.get_id() != std::this_thread::get_id()) return true;
+  const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  if (work_since_ < 0) work_since_ = work_reported_ = now;
+  if (now - work_reported_ > k_report) {
+    work_reported_ = now;
+    work_.store(std::make_shared<const Work>(Work{share, what, now - work_since_}));
+  }
+  return !cancelled_.load();
+}
+
 bool Workshop::do_orders() {
   std::vector<std::function<void(Bench&)>> orders;
   {
     const std::lock_guard lock(mutex_);
     orders.swap(orders_);
   }
-  for (const auto& order : orders) order(bench_);
+  for (const auto& order : orders) {
+    cancelled_.store(false);
+    work_since_ = -1;
+    works_ = true;
+    order(bench_);
+    works_ = false;
+  }
+  work_.store(nullptr);
   return !orders.empty();
 }
 

@@ -31,6 +31,16 @@ class Workshop {
   void cancel_stroke();
   [[nodiscard]] std::shared_ptr<const Snapshot> latest() const { return latest_.load(); }
 
+  /// What runs now, if it is known to take a while; null: nothing. A frame may show it and cancel it.
+  struct Work {
+    double share = -1;  // −1: not known
+    std::string what;
+    double seconds = 0;  // that it has run
+  };
+  [[nodiscard]] std::shared_ptr<const Work> work() const { return work_.load(); }
+  /// The line that runs ends as soon as it can and changes nothing.
+  void cancel_work() { cancelled_.store(true); }
+
   /// Real time: a thread that lives as long as this.
   void start();
   /// Virtual time: on the caller's thread, never between frame_begins and frame_ends.
@@ -57,7 +67,13 @@ class Workshop {
   std::condition_variable woken_;
   std::vector<std::function<void(Bench&)>> orders_;
   bool ends_ = false;
+  bool report_work(double share, const std::string& what);
+
   std::atomic<std::shared_ptr<const Snapshot>> latest_;
+  std::atomic<std::shared_ptr<const Work>> work_;
+  std::atomic<bool> cancelled_{false};
+  bool works_ = false;                          // at an order; strokes and play are not to be waited for
+  double work_since_ = -1, work_reported_ = 0;  // [s]
   std::atomic<std::thread::id> frame_thread_{};
   std::atomic<long> lines_in_frames_{0};
   // Of the simulation.
