@@ -16,17 +16,4 @@ Eigen::Vector3d contact_force(const ContactModel& model, const Eigen::Vector3d& 
   return force;
 }
 
-void ContactChannel::publish(const ContactModel& model) {
-  slots_[writer_] = model;
-  writer_ = between_.exchange(writer_ | k_fresh, std::memory_order_acq_rel) & k_slot;
-}
-
-const ContactModel* ContactChannel::latest() {
-  if ((between_.load(std::memory_order_relaxed) & k_fresh) != 0) {
-    reader_ = between_.exchange(reader_, std::memory_order_acq_rel) & k_slot;
-    any_ = true;
-  }
-  return any_ ? &slots_[reader_] : nullptr;
-}
-
 }  // namespace argil::sculpt

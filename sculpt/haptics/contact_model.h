@@ -4,10 +4,10 @@
 // held force of 1000 N/m makes energy, planes sent ahead do not (a test shows both).
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 
 #include "sculpt/haptics/device.h"
+#include "sculpt/haptics/latest_channel.h"
 
 namespace argil::sculpt {
 
@@ -33,22 +33,7 @@ struct ContactModel {
 /// force + derivative (x − point) + Σ planes stiffness · depth · normal [N].
 [[nodiscard]] Eigen::Vector3d contact_force(const ContactModel& model, const Eigen::Vector3d& position);
 
-/// From one writer to one reader, without locks: each side always owns one of three slots, and they swap through
-/// the third. Neither waits; the reader sees the newest whole model.
-class ContactChannel {
- public:
-  void publish(const ContactModel& model);
-
-  /// The newest model, unchanged until the next call; null before the first.
-  [[nodiscard]] const ContactModel* latest();
-
- private:
-  static constexpr unsigned k_slot = 3, k_fresh = 4;
-
-  std::array<ContactModel, 3> slots_;
-  std::atomic<unsigned> between_{1};  // slot that neither side owns; k_fresh if the reader has not seen it
-  unsigned writer_ = 0, reader_ = 2;
-  bool any_ = false;  // reader's
-};
+/// From the simulation to the servo.
+using ContactChannel = LatestChannel<ContactModel>;
 
 }  // namespace argil::sculpt

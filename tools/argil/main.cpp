@@ -287,6 +287,10 @@ int run(int argc, char** argv) {
                          "drive the window off the screen by this text (docs/studio.md)");
   studio_app->add_option("--out", sculpting.out, "folder for the journal, results, and pictures of a script")
       ->capture_default_str();
+  studio_app
+      ->add_option("--device", sculpting.device,
+                   "to sculpt with: gamepad, space_mouse, hand, or \"network ADDRESS:PORT\"")
+      ->capture_default_str();
   studio_app->add_option("--max-cells", sculpting.limits.cells, "refuse to make more cells")->capture_default_str();
   studio_app->add_option("--max-memory", sculpting.limits.memory, "bytes, estimated before allocating")
       ->capture_default_str();

@@ -106,6 +106,7 @@ struct StudioArguments {
   std::filesystem::path file;                // a session or a volume mesh; empty: a new block
   std::filesystem::path script;              // runs off the screen; empty: a window
   std::filesystem::path out = "out/studio";  // journal, results, pictures of a script
+  std::string device = "mouse";              // to sculpt with in a window
   sculpt::Limits limits;
 };
 int studio(const StudioArguments& arguments);

@@ -6,6 +6,7 @@
 #include "io/file_bytes.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
+#include "tools/devices/device_table.h"
 #include "tools/studio/script.h"
 #include "tools/studio/window.h"
 #include "tools/view/offscreen_renderer.h"
@@ -24,6 +25,21 @@ std::filesystem::path settings_folder() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
     return std::filesystem::path(home) / ".config" / "argil";
   return {};
+}
+
+argil::studio::DeviceShop device_shop() {
+  argil::studio::DeviceShop shop;
+  shop.list = [] {
+    std::vector<argil::studio::DeviceChoice> choices;
+    for (const devices::DeviceEntry& entry : devices::list_devices())
+      if (entry.name != "scripted") choices.push_back({entry.name, entry.summary, entry.state, entry.present});
+    return choices;
+  };
+  shop.open = [](const std::string& name) {
+    const std::shared_ptr<devices::OwnedDevice> owned = devices::open_device(name);
+    return std::shared_ptr<sculpt::Device>(owned, &owned->device());
+  };
+  return shop;
 }
 
 // Beside an installed program, else where it was built from.
@@ -47,12 +63,13 @@ int studio(const StudioArguments& arguments) {
   bench.samples = samples_folder();
   if (arguments.script.empty()) {
     bench.settings = settings_folder();
-    argil::studio::run_window({bench, arguments.file});
+    argil::studio::run_window({bench, device_shop(), arguments.device, arguments.file});
     return k_well;
   }
   const std::string script = io::read_file(arguments.script);
   argil::studio::OffscreenOptions options;
   options.bench = bench;
+  options.devices = device_shop();
   argil::studio::Offscreen window(options, arguments.file);
   const auto result = argil::studio::run_script(script, arguments.script.string(), window, arguments.out,
                                                 [](const std::string& line) { std::printf("%s\n", line.c_str()); });

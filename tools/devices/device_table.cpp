@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <limits>
+#include <random>
 #include <thread>
 
 #include "sculpt/haptics/clock.h"
@@ -58,6 +60,32 @@ class OwnedRates : public OwnedDevice {
  private:
   std::unique_ptr<sculpt::RateSource> source_;
   sculpt::RateDevice device_;
+};
+
+/// "ADDRESS:PORT".
+sculpt::UdpAddress address_of(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  unsigned port = 0;
+  const char* const end = text.data() + text.size();
+  if (colon == std::string::npos || colon == 0 || std::from_chars(text.data() + colon + 1, end, port).ptr != end ||
+      port == 0 || port > 65535)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("expected an address and a port such as 127.0.0.1:4711, found '{}'; `argil devices "
+                            "--serve NAME` on the machine with the device says them",
+                            text));
+  return {text.substr(0, colon), static_cast<std::uint16_t>(port)};
+}
+
+class OwnedNetwork : public OwnedDevice {
+ public:
+  explicit OwnedNetwork(const sculpt::UdpAddress& there)
+      : link_(sculpt::open_udp({there.host.starts_with("127.") ? "127.0.0.1" : "0.0.0.0", 0}, there)),
+        device_(*link_, (std::uint64_t{std::random_device()()} << 32) | std::random_device()()) {}
+  sculpt::Device& device() override { return device_; }
+
+ private:
+  std::unique_ptr<sculpt::DatagramLink> link_;
+  sculpt::NetworkDevice device_;
 };
 
 class NoSource : public sculpt::RateSource {
@@ -115,8 +143,8 @@ std::vector<DeviceEntry> list_devices() {
   entries.push_back(space_mouse_entry());
   sculpt::SimulatedNetwork network({});
   entries.push_back({"network", "a device beside its own servo, by UDP", true,
-                     "`argil devices --serve NAME` on the machine that has the device; neither sessions nor the "
-                     "window take it up yet",
+                     "`argil devices --serve NAME` on the machine that has the device; then "
+                     "`argil studio --device \"network ADDRESS:PORT\"`",
                      sculpt::NetworkDevice(network.end(0), 0).capabilities()});
   return entries;
 }
@@ -124,11 +152,11 @@ std::vector<DeviceEntry> list_devices() {
 std::unique_ptr<OwnedDevice> open_device(const std::string& name) {
   if (name == "hand") return std::make_unique<OwnedHand>();
   if (name == "gamepad") return std::make_unique<OwnedRates>(open_gamepad());
+  if (name.starts_with("network ")) return std::make_unique<OwnedNetwork>(address_of(name.substr(8)));
   if (name == "space_mouse") return std::make_unique<OwnedRates>(open_space_mouse());
-  throw Error(
-      ErrorCode::not_found,
-      fmt::format("expected hand, gamepad or space_mouse, found \"{}\"; `argil devices` lists what is there",
-                  name));
+  throw Error(ErrorCode::not_found, fmt::format("expected hand, gamepad, space_mouse or `network ADDRESS:PORT`, "
+                                                "found \"{}\"; `argil devices` lists what is there",
+                                                name));
 }
 
 TickBench bench_ticks(double seconds) {

@@ -347,6 +347,14 @@ StrokeNow Bench::stroke_now() const {
   return now;
 }
 
+sculpt::ContactModel Bench::felt(const Eigen::Vector3d& at, sculpt::Tick valid_until) const {
+  if (stroke_) return stroke_->felt(valid_until);
+  sculpt::ContactModel nothing;
+  nothing.point = at;
+  nothing.valid_until = valid_until;
+  return nothing;
+}
+
 void Bench::end_stroke(bool keep) {
   if (!stroke_) return;
   try {

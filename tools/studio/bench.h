@@ -68,6 +68,8 @@ class Bench {
   void end_stroke(bool keep);
   void cancel_stroke();
   bool is_stroking() const { return stroke_ != nullptr; }
+  /// What a device at `at` should feel until that tick: of the stroke, or nothing.
+  [[nodiscard]] sculpt::ContactModel felt(const Eigen::Vector3d& at, sculpt::Tick valid_until) const;
 
   void set_playing(bool on);
   bool is_playing() const { return playing_; }

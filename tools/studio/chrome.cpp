@@ -204,10 +204,11 @@ void draw_status(Desk& desk, const Layout& layout) {
   word(" unknowns", false);
   end(from, "Size", "Finite elements, and numbers that a step solves for", "1");
   from = begin();
-  word("mouse ", false);
+  const auto device = desk.workshop->device();
+  word(device ? device->name.substr(0, device->name.find(' ')) + ' ' : "mouse ", false);
   word("1000 Hz", true);
-  word(fmt::format(", {} missed", now.missed_ticks), false);
-  end(from, "Device", "Ticks of the device a second, and those that the simulation was too slow for", "Hz");
+  word(fmt::format(", {} missed", device && !desk.virtual_clock ? device->missed : now.missed_ticks), false);
+  end(from, "Device", "Ticks of the device a second, and those that were missed", "Hz");
   from = begin();
   const double force = now.stroke ? now.stroke->force.norm() : 0;
   word("force ", false);

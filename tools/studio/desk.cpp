@@ -115,6 +115,9 @@ bool Desk::perform(Action action) {
     case samples:
       open_dialogue(Dialogue::samples);
       return true;
+    case devices:
+      open_dialogue(Dialogue::devices);
+      return true;
     case unsaved_work:
       open_dialogue(Dialogue::unsaved);
       return true;

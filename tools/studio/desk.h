@@ -48,7 +48,7 @@ struct Reading {
 };
 
 /// What has the keyboard in front of everything else.
-enum class Dialogue { none, search, keys, open, save, samples, unsaved };
+enum class Dialogue { none, search, keys, open, save, samples, unsaved, devices };
 
 struct Desk {
   Workshop* workshop = nullptr;
@@ -67,6 +67,8 @@ struct Desk {
   std::vector<unsigned> sample_pictures;  // of Snapshot::samples, as the graphics card names them
   std::optional<Action> rebinds;          // waits for its new key
   std::string key_note;
+  ReadyBrush ready;  // as the workshop was told it for a device
+  bool brush_is_ready = false;
   bool unsaved_seen = false;  // the offer to bring work back was answered
   float panel_height = 0;     // that the panel wants
   bool card = true;           // of the first minute

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/studio/device_dialogue.h"
 #include "tools/studio/file_dialogues.h"
 #include "tools/studio/key_editor.h"
 #include "tools/studio/search.h"
@@ -125,6 +126,9 @@ void draw_dialogues(Desk& desk, const Layout& layout, const Perform& perform, in
       break;
     case Dialogue::samples:
       draw_samples(desk, width, height);
+      break;
+    case Dialogue::devices:
+      draw_devices(desk, width, height);
       break;
     case Dialogue::unsaved:
       draw_unsaved(desk, width, height);

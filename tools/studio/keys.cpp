@@ -113,6 +113,8 @@ const std::array<ActionInfo, k_action_count>& action_table() {
       {samples, "samples", "Samples…", "Shows the samples with their pictures; one opens as a new session", "File",
        "Ctrl-Shift-O"},
       {unsaved_work, "unsaved_work", "Unsaved work…", "Brings back what earlier windows left unsaved", "File", ""},
+      {devices, "devices", "Devices…", "Chooses what to sculpt with: gamepad, 3D mouse, a force device by UDP",
+       "Tool", "Ctrl-D"},
       {undo, "undo", "Undo", "Takes back the last stroke or command", "Edit", "Ctrl-Z"},
       {redo, "redo", "Redo", "Brings back what undo took", "Edit", "Ctrl-Shift-Z"},
       {search, "search", "Search commands…", "Finds any command by name or meaning and runs it", "Help", "F3"},
@@ -222,6 +224,7 @@ const std::vector<KeyPreset>& key_presets() {
        "brush_strength = U\n"
        "frame_all = F\n"
        "wireframe = Shift-F\n"
+       "devices =\n"
        "finer = Ctrl-D\n"
        "coarser = Shift-D\n"},
   };

@@ -37,6 +37,7 @@ enum class Action {
   quit,
   samples,
   unsaved_work,
+  devices,
   undo,
   redo,
   search,

@@ -7,7 +7,7 @@
 namespace argil::studio {
 
 Offscreen::Offscreen(const OffscreenOptions& options, const std::filesystem::path& file) : options_(options) {
-  workshop_ = std::make_unique<Workshop>(options.bench);
+  workshop_ = std::make_unique<Workshop>(options.bench, options.devices);
   resize(options.width, options.height, options.scale);
   if (file.empty())
     workshop_->post([](Bench& bench) { bench.begin_block(); });

@@ -17,6 +17,7 @@ struct OffscreenOptions {
   int width = 1280, height = 800;  // in units of the layout
   float scale = 1;
   BenchOptions bench;
+  DeviceShop devices;
   bool card = true;
 };
 

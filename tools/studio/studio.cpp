@@ -7,6 +7,7 @@
 #include <array>
 #include <cfloat>
 
+#include "tools/studio/device_dialogue.h"
 #include "tools/studio/dialogues.h"
 #include "tools/studio/key_editor.h"
 #include "tools/studio/panels.h"
@@ -172,7 +173,9 @@ void Studio::frame(const Input& input) {
   viewport_->camera_window(input.width, input.height, layout.free);
   viewport_->handle(desk_, input, control_, shift_, over_ui);
 
+  lay_brush_ready(desk_, viewport_->camera());
   viewport_->draw_marks(desk_);
+  draw_device_mark(desk_, viewport_->camera());
   draw_menu(desk_, layout, perform_here);
   draw_shelf(desk_, layout);
   draw_legend(desk_, layout);

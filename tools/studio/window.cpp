@@ -103,12 +103,13 @@ void run_window(const WindowOptions& options) {
   glfwSwapInterval(1);
   const view::Gl gl = view::load_gl(reinterpret_cast<ProcedureLookUp>(glfwGetProcAddress));
 
-  Workshop workshop(options.bench);
+  Workshop workshop(options.bench, options.devices);
   if (options.file.empty())
     workshop.post([](Bench& bench) { bench.begin_block(); });
   else
     workshop.post([file = options.file](Bench& bench) { bench.open(file); });
   workshop.start();
+  if (options.device != "mouse") workshop.use_device(options.device);
 
   float scale_x = 1, scale_y = 1;
   glfwGetWindowContentScale(window.get(), &scale_x, &scale_y);

@@ -4,11 +4,14 @@
 #include <filesystem>
 
 #include "tools/studio/bench.h"
+#include "tools/studio/hand.h"
 
 namespace argil::studio {
 
 struct WindowOptions {
   BenchOptions bench;
+  DeviceShop devices;
+  std::string device = "mouse";
   std::filesystem::path file;  // empty: a block
 };
 

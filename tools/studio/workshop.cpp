@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-Workshop::Workshop(BenchOptions options) : bench_(std::move(options)) {
+Workshop::Workshop(BenchOptions options, DeviceShop shop) : bench_(std::move(options)), shop_(std::move(shop)) {
   bench_.on_line = [this] {
     if (frame_thread_.load() == std::this_thread::get_id()) ++lines_in_frames_;
   };
@@ -59,6 +59,7 @@ void Workshop::begin_stroke(const StrokeStart& start) {
   post([this, start](Bench& bench) {
     device_ = device_goal_ = start.pose;
     tick_rest_ = 0;
+    hand_strokes_ = false;
     bench.begin_stroke(start);
   });
 }
@@ -101,14 +102,22 @@ bool Workshop::do_orders() {
 }
 
 void Workshop::do_ticks(long ticks, long most) {
-  if (!bench_.is_stroking()) return;
   const double share = 1 - std::exp(-k_tick / k_follow);
-  for (long i = 0; i < std::min(ticks, most) && bench_.is_stroking(); ++i) {
+  for (long i = 0; i < std::min(ticks, most); ++i) {
+    if (hand_ && (i == 0 || !real_time_)) follow_hand();
+    if (!bench_.is_stroking()) {
+      if (!hand_) break;
+      continue;
+    }
+    if (hand_strokes_) {
+      bench_.tick_stroke(device_);
+      continue;
+    }
     device_.position += share * (device_goal_.position - device_.position);
     device_.pressure += share * (device_goal_.pressure - device_.pressure);
     bench_.tick_stroke(device_);
   }
-  if (ticks > most) bench_.missed(ticks - most);
+  if (ticks > most && bench_.is_stroking()) bench_.missed(ticks - most);
 }
 
 void Workshop::do_play(double seconds, int most) {
@@ -140,6 +149,7 @@ void Workshop::advance(double seconds) {
 }
 
 void Workshop::start() {
+  real_time_ = true;
   if (!thread_.joinable()) thread_ = std::thread([this] { loop(); });
 }
 
@@ -148,13 +158,13 @@ void Workshop::loop() {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      const bool busy = bench_.is_stroking() || bench_.is_playing();
+      const bool busy = bench_.is_stroking() || bench_.is_playing() || hand_;
       if (orders_.empty() && !ends_)
         woken_.wait_for(lock, std::chrono::duration<double>(busy ? k_tick : k_longest_wait),
                         [this] { return ends_ || !orders_.empty(); });
       if (ends_) return;
     }
-    const bool was_stroking = bench_.is_stroking(), was_playing = bench_.is_playing();
+    const bool was_stroking = bench_.is_stroking() || hand_, was_playing = bench_.is_playing();
     do_orders();
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last).count();

@@ -10,12 +10,29 @@
 #include <vector>
 
 #include "tools/studio/bench.h"
+#include "tools/studio/hand.h"
 
 namespace argil::studio {
 
+/// What a stroke of a device begins with where it begins: the brush that lies ready.
+struct ReadyBrush {
+  sculpt::Tool tool;
+  bool keep = true;  // the shape, at the end of the stroke
+  // Where its workspace lies: over this ball, seen along `view` from the eye.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero(), view = Eigen::Vector3d::UnitY();
+  double radius = 1;  // [m]
+};
+
+/// The device other than the mouse, as a frame shows it.
+struct DeviceNow {
+  std::string name;
+  HandSample sample;
+  sculpt::Tick missed = 0;
+};
+
 class Workshop {
  public:
-  explicit Workshop(BenchOptions options);
+  explicit Workshop(BenchOptions options, DeviceShop shop = {});
   ~Workshop();
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
@@ -29,6 +46,19 @@ class Workshop {
   void begin_stroke(const StrokeStart& start);
   void end_stroke(bool keep);
   void cancel_stroke();
+
+  // Another device than the mouse. It sculpts while its first button is down; the mouse stays there beside it.
+  /// Takes the device of this name, or none for "mouse". One that cannot be had, or that falls silent, is told and
+  /// leaves the mouse.
+  void use_device(const std::string& name);
+  void use_device(std::string name, std::shared_ptr<sculpt::Device> device);
+  void lay_ready(const ReadyBrush& brush);
+  /// Null: there is none.
+  [[nodiscard]] std::shared_ptr<const DeviceNow> device() const { return device_now_.load(); }
+  void list_devices();
+  /// As of the last list_devices; null before.
+  [[nodiscard]] std::shared_ptr<const std::vector<DeviceChoice>> devices() const { return choices_.load(); }
+
   [[nodiscard]] std::shared_ptr<const Snapshot> latest() const { return latest_.load(); }
 
   /// What runs now, if it is known to take a while; null: nothing. A frame may show it and cancel it.
@@ -61,6 +91,10 @@ class Workshop {
   void do_play(double seconds, int most);
   void publish();
   void loop();
+  // The hand: takes its newest sample, and gives it what it should feel.
+  void follow_hand();
+  void place_hand();
+  void drop_hand(const std::string& reason);
 
   Bench bench_;
   mutable std::mutex mutex_;
@@ -79,6 +113,14 @@ class Workshop {
   // Of the simulation.
   sculpt::StrokePose device_, device_goal_;
   double tick_rest_ = 0, play_rest_ = 0;
+  // Of the device other than the mouse.
+  DeviceShop shop_;
+  std::unique_ptr<Hand> hand_;
+  ReadyBrush ready_;
+  bool hand_pressed_ = false, hand_strokes_ = false, real_time_ = false;
+  sculpt::Tick hand_heard_ = 0;  // when it was last well
+  std::atomic<std::shared_ptr<const DeviceNow>> device_now_;
+  std::atomic<std::shared_ptr<const std::vector<DeviceChoice>>> choices_;
   std::thread thread_;
 };
 
