@@ -69,6 +69,7 @@ int studio(const StudioArguments& arguments) {
   const std::string script = io::read_file(arguments.script);
   argil::studio::OffscreenOptions options;
   options.bench = bench;
+  options.bench.save_root = arguments.out;
   options.devices = device_shop();
   argil::studio::Offscreen window(options, arguments.file);
   const auto result = argil::studio::run_script(script, arguments.script.string(), window, arguments.out,

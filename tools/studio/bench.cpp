@@ -118,6 +118,7 @@ bool Bench::run_one(const std::string& text) {
   const std::string written = io::format_line(line.tokens);
   const std::string& name = line.tokens[0].text;
   if (name == "new" || name == "open" || name == "solidify") ++solids_;
+  if (name == "tool") ++tool_lines_;
   const sculpt::Effect effect = sculpt::find_command(line).effect;
   if (effect == sculpt::Effect::history)
     ++lines_;
@@ -185,8 +186,12 @@ void Bench::run_all(const std::vector<io::SessionLine>& lines) {
   }
 }
 
-void Bench::open(const std::filesystem::path& file) {
+void Bench::open(const std::filesystem::path& wanted) {
   try {
+    std::error_code failure;
+    const std::filesystem::path saved = options_.save_root / wanted;
+    const bool was_saved = !options_.save_root.empty() && std::filesystem::is_regular_file(saved, failure);
+    const std::filesystem::path& file = was_saved ? saved : wanted;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (file.extension() != ".argil") {
       begin_session(folder);
@@ -270,9 +275,14 @@ void Bench::write_keys(const std::string& lines) {
   }
 }
 
-void Bench::save(const std::filesystem::path& file) {
+void Bench::save(const std::filesystem::path& wanted) {
   if (stroke_) end_stroke(false);
   try {
+    const std::filesystem::path file = options_.save_root.empty() ? wanted : options_.save_root / wanted;
+    const std::filesystem::path way =
+        file.lexically_normal().lexically_relative(options_.save_root.lexically_normal());
+    if (!options_.save_root.empty() && (way.empty() || *way.begin() == ".."))
+      throw Error(ErrorCode::refused, "a script saves beneath its --out folder alone; take a relative name");
     io::write_file(file, io::read_file(session_->journal_path()));
     mark_saved(file);
     used(file);
@@ -304,7 +314,10 @@ void Bench::begin_stroke(const StrokeStart& start) {
   stroke_ticks_ = 0;
   try {
     const std::string tool = tool_line(session_->document().state().tool, start.tool);
-    if (!tool.empty()) run_one(tool);
+    if (!tool.empty()) {
+      run_one(tool);
+      --tool_lines_;
+    }
     stroke_ = std::make_unique<sculpt::Stroke>(*session_, start.pose, start.options);
   } catch (const Error& error) {
     say(MessageKind::error, error.what());

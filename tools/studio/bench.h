@@ -19,6 +19,9 @@ struct BenchOptions {
   sculpt::Renderer* renderer = nullptr;      // for the command `render`; may be null
   std::filesystem::path samples{};           // folder of the samples; empty: there are none
   std::filesystem::path settings{};          // folder of the sculptor's settings; empty: none are kept
+  /// Not empty, for a script that nobody watches: sessions are saved beneath it alone, and relative names mean
+  /// there.
+  std::filesystem::path save_root{};
   sculpt::Limits limits;
   fem::Clock clock = nullptr;
 };
@@ -127,7 +130,7 @@ class Bench {
   Shown shown_;
   std::filesystem::path file_;
   std::size_t lines_ = 0, saved_lines_ = 0;
-  std::uint64_t solids_ = 0;
+  std::uint64_t solids_ = 0, tool_lines_ = 0;
   long missed_ticks_ = 0;
   bool changed_ = true, whole_ = true, history_changed_ = true, shade_again_ = true;
   std::shared_ptr<const Snapshot> last_;

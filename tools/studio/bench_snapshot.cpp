@@ -154,6 +154,7 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   }
   next->state = document.state();
   next->tool = document.state().tool;
+  next->tool_number = tool_lines_;
   if (history_changed_ || !shown_history_) {
     for (HistoryEntry& entry : history_) entry.undone = entry.depth > session_->undo_depth();
     shown_history_ = std::make_shared<const std::vector<HistoryEntry>>(history_);

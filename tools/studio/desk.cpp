@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace argil::studio {
 
@@ -75,12 +76,43 @@ void Desk::take_tool(std::size_t index) {
   settings.field_of_tool = paints;
 }
 
+namespace {
+
+// A brush that does something sensible to a solid of which nothing else is known: a fifth of its size, and so
+// strong that a radius of travel moves the clay by about half of it.
+sculpt::Tool fitting_brush(const Snapshot& now) {
+  sculpt::Tool brush = now.tool;
+  const auto rounded = [](double value) {
+    const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+    return std::round(value / digit) * digit;
+  };
+  const double size = (now.high - now.low).maxCoeff();
+  const double modulus = now.materials[static_cast<std::size_t>(sculpt::FieldName::young_modulus)].mean;
+  if (!(size > 0) || !(modulus > 0)) return brush;
+  brush.radius = rounded(0.25 * size);
+  brush.strength = rounded(0.7 * modulus * brush.radius);
+  brush.largest_force = rounded(brush.strength * brush.radius);
+  return brush;
+}
+
+}  // namespace
+
 void Desk::follow_solid() {
-  if (now->solid_number == brush_solid) return;
+  const bool another = now->solid_number != brush_solid, line = now->tool_number != brush_line;
+  const bool is_usual = tool_line(sculpt::Tool{}, now->tool).empty();
+  // As long as nobody touched the brush that was chosen here, it goes with the material.
+  sculpt::Tool untouched = fitted_brush;
+  untouched.name = brush.name;
+  const bool refits = is_usual && now->scene && tool_line(untouched, brush).empty();
+  if (!another && !line && !refits) return;
   brush_solid = now->solid_number;
-  const std::string name = brush.name;
-  brush = now->tool;
+  brush_line = now->tool_number;
+  const std::string name = line ? now->tool.name : brush.name;
+  brush = is_usual && now->scene ? fitting_brush(*now) : now->tool;
+  if (is_usual) fitted_brush = brush;
   brush.name = name;
+  for (std::size_t i = 0; line && i < shelf_tools().size(); ++i)
+    if (shelf_tools()[i].name == name && i != settings.tool) take_tool(i);
 }
 
 void Desk::show() const {

@@ -56,8 +56,9 @@ struct Desk {
   Bindings bindings;
   Settings settings;
   std::shared_ptr<const Snapshot> now;
-  sculpt::Tool brush;  // of the next stroke; it becomes the document's when one begins
-  std::uint64_t brush_solid = 0;
+  sculpt::Tool brush;                             // of the next stroke; it becomes the document's when one begins
+  std::uint64_t brush_solid = 0, brush_line = 0;  // of the snapshot that the brush follows
+  sculpt::Tool fitted_brush;                      // chosen to fit the solid
   Reading reading;
   Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame
   std::string typed;                                                    // in the dialogue

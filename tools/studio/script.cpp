@@ -51,6 +51,8 @@ double value_of(Offscreen& window, const std::string& what) {
   if (what == "steps") return static_cast<double>(now.steps);
   if (what == "radius") return window.studio().desk().brush.radius;
   if (what == "strength") return window.studio().desk().brush.strength;
+  if (what == "unsaved") return static_cast<double>(now.unsaved->size());
+  if (what == "saved") return now.saved ? 1 : 0;
   if (what == "lines_in_frames") return static_cast<double>(window.workshop().lines_run_in_frames());
   return sculpt::measure(window.workshop().bench().session().document(), {.name = what});
 }

@@ -58,6 +58,7 @@ struct Snapshot {
 
   // The document.
   sculpt::Tool tool;
+  std::uint64_t tool_number = 0;  // another one: a line took a tool, not a stroke
   sculpt::State state;  // its parts are shared and do not change; `solid` is not to be touched from another thread
   std::size_t control_cells = 0, elements = 0, unknowns = 0, pinned = 0;
   struct Material {
