@@ -200,6 +200,15 @@ int run(int argc, char** argv) {
     if (!bench_integrator.empty()) benching.overrides["integrator"] = bench_integrator;
     status = bench_models(benching);
   });
+  StudioBenchArguments studio_benching;
+  CLI::App* studio_bench_app = bench_app->add_subcommand(
+      "studio", "Frames of the window, off the screen: turning a fine solid, and during a stroke on each model");
+  studio_bench_app->add_option("folder", studio_benching.folder, "sessions to stroke")->capture_default_str();
+  studio_bench_app->add_option("--out", studio_benching.out, "folder for what they write")->capture_default_str();
+  studio_bench_app->add_option("--frames", studio_benching.frames, "frames that are timed")
+      ->check(CLI::Range(10, 100000))
+      ->capture_default_str();
+  studio_bench_app->callback([&] { status = bench_studio(studio_benching); });
   ChartArguments charting;
   CLI::App* chart_app = app.add_subcommand("chart",
                                            "Charts speed against accuracy: methods on problems with known "

@@ -61,6 +61,12 @@ struct BenchArguments {
 /// Every session of the folder, simulated under gravity after its end, beside the table of papers/004 where the
 /// name is one of its models.
 int bench_models(BenchArguments arguments);
+
+struct StudioBenchArguments {
+  std::filesystem::path folder = "samples/models", out = "out/bench_studio";
+  int frames = 240;  // that are timed
+};
+int bench_studio(const StudioBenchArguments& arguments);
 struct ChartArguments {
   std::filesystem::path session, out = "out/chart";                // no session: the problems of the chart
   std::vector<std::string> problems, models, spaces, integrators;  // empty: all

@@ -15,6 +15,7 @@ Offscreen::Offscreen(const OffscreenOptions& options, const std::filesystem::pat
     workshop_->post([file](Bench& bench) { bench.open(file); });
   workshop_->advance(0);
   wait(2);
+  if (options.real_time) workshop_->start();
 }
 
 Offscreen::~Offscreen() {
@@ -41,7 +42,7 @@ void Offscreen::frame() {
   input_.keys.clear();
   input_.characters.clear();
   input_.wheel = 0;
-  workshop_->advance(input_.seconds);
+  if (!workshop_->is_running()) workshop_->advance(input_.seconds);
   ++frames_;
 }
 
@@ -118,6 +119,14 @@ void Offscreen::click(const std::string& name) {
   const bool is_row = control->kind == ControlKind::choice || control->kind == ControlKind::toggle;
   const double x = is_row ? place.right() - 14 * input_.scale : place.x + 0.5F * place.width;
   click(x / input_.scale, (place.y + 0.5F * place.height) / input_.scale);
+}
+
+void Offscreen::draw() {
+  context_.make_current();
+  studio_->draw(target_->framebuffer());
+  std::uint8_t pixel[4];  // what is read has been drawn
+  target_->bind();
+  context_.gl().ReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
 }
 
 sculpt::Picture Offscreen::picture() {

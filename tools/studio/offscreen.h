@@ -19,6 +19,7 @@ struct OffscreenOptions {
   BenchOptions bench;
   DeviceShop devices;
   bool card = true;
+  bool real_time = false;  // the simulation in its own thread, as in a window
 };
 
 class Offscreen {
@@ -43,7 +44,9 @@ class Offscreen {
   /// Without any wait: the next frames see another size.
   void resize(int width, int height, float scale);
 
-  /// What the last frame shows. Only this draws: other frames are laid out, and seen by nobody.
+  /// Draws the last frame and waits until it is drawn.
+  void draw();
+  /// What the last frame shows. Only these draw: other frames are laid out, and seen by nobody.
   [[nodiscard]] sculpt::Picture picture();
   Studio& studio() { return *studio_; }
   Workshop& workshop() { return *workshop_; }

@@ -73,6 +73,7 @@ class Workshop {
 
   /// Real time: a thread that lives as long as this.
   void start();
+  [[nodiscard]] bool is_running() const { return thread_.joinable(); }
   /// Virtual time: on the caller's thread, never between frame_begins and frame_ends.
   void advance(double seconds);
 
