@@ -36,6 +36,18 @@ Eigen::Vector3d Touch::force() const {
   return result;
 }
 
+Eigen::Matrix3d Touch::tangent() const {
+  const Eigen::Matrix3d across = normal * normal.transpose();
+  Eigen::Matrix3d result = stiffness * across;
+  if (!(limit > 0)) return result;
+  const Eigen::Matrix3d sideways = Eigen::Matrix3d::Identity() - across;
+  if (!slips()) return result + stiffness * sideways;
+  // The force keeps its size: it changes as it turns with the stretch.
+  const double length = size_of(stretch);
+  const Eigen::Vector3d direction = stretch / length;
+  return result + limit / length * (sideways - direction * direction.transpose());
+}
+
 ContactStep::ContactStep(const Contact& contact, const BodyState& begin, double time)
     : contact_(&contact), begin_(&begin) {
   for (const Obstacle& obstacle : contact.obstacles) {
@@ -109,22 +121,39 @@ void ContactStep::add_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3X
     Eigen::Vector3d d = Eigen::Vector3d::Zero();
     for (std::size_t e = 0; e < row.columns.size(); ++e)
       d += row.weights[e] * direction.col(static_cast<Eigen::Index>(row.columns[e]));
-    const double inwards = along(d, t.normal);
-    Eigen::Vector3d force = t.stiffness * inwards * t.normal;
-    if (t.limit > 0) {
-      Eigen::Vector3d sideways = d - inwards * t.normal;
-      double stiffness = t.stiffness;
-      if (t.slips()) {
-        // The force keeps its size: it changes as it turns with the stretch.
-        const double length = size_of(t.stretch);
-        sideways -= along(sideways, t.stretch) / (length * length) * t.stretch;
-        stiffness = t.limit / length;
-      }
-      force += stiffness * sideways;
-    }
+    const Eigen::Vector3d force = t.tangent() * d;
     for (std::size_t e = 0; e < row.columns.size(); ++e)
       result.col(static_cast<Eigen::Index>(row.columns[e])) += row.weights[e] * force;
   }
+}
+
+std::vector<std::uint32_t> ContactStep::touched_control_points() const {
+  std::vector<std::uint32_t> result;
+  for (const Touch& t : touches_) {
+    const subdiv::StencilRow row = contact_->surface->rows.row(t.point);
+    result.insert(result.end(), row.columns.begin(), row.columns.end());
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+Eigen::MatrixXd ContactStep::stiffness(const std::vector<std::uint32_t>& control_points) const {
+  const auto size = static_cast<Eigen::Index>(3 * control_points.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  std::vector<Eigen::Index> places;
+  for (const Touch& t : touches_) {
+    const subdiv::StencilRow row = contact_->surface->rows.row(t.point);
+    places.clear();
+    for (const std::uint32_t column : row.columns)
+      places.push_back(
+          3 * (std::lower_bound(control_points.begin(), control_points.end(), column) - control_points.begin()));
+    const Eigen::Matrix3d tangent = t.tangent();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t j = 0; j < places.size(); ++j)
+        result.block<3, 3>(places[i], places[j]) += row.weights[i] * row.weights[j] * tangent;
+  }
+  return result;
 }
 
 Eigen::VectorXd ContactStep::diagonal() const {

@@ -34,6 +34,8 @@ struct Touch {
   double limit = 0;                                   // of friction: μ times the normal force [N]
   [[nodiscard]] bool slips() const;
   [[nodiscard]] Eigen::Vector3d force() const;  // on the body [N]
+  /// Its derivative −∂f/∂x as add_product() takes it [N/m].
+  [[nodiscard]] Eigen::Matrix3d tangent() const;
 };
 
 /// Contact in one step, with the obstacles where they are at one time.
@@ -50,6 +52,10 @@ class ContactStep {
   void add_forces(Eigen::Matrix3Xd& forces) const;
   /// Adds their derivative, −∂f/∂p · direction; symmetric and positive semi-definite.
   void add_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const;
+  /// The control points that what touches depends on, ascending, and the same matrix in them (3 a point; they must
+  /// be all of them).
+  [[nodiscard]] std::vector<std::uint32_t> touched_control_points() const;
+  [[nodiscard]] Eigen::MatrixXd stiffness(const std::vector<std::uint32_t>& control_points) const;
   /// Per control point the largest that its own block of that matrix can be [N/m].
   [[nodiscard]] Eigen::VectorXd diagonal() const;
   /// Energy [J] with the control points elsewhere, friction up to the limits found by set_state(): its gradient

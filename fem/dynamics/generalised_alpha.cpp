@@ -34,6 +34,7 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   Potential goal = potential(loads.springs);
   std::optional<ContactStep> contact = contact_step(loads, state, state.time + (1 - alpha_f) * h);
   goal.contact = contact ? &*contact : nullptr;
+  goal.columns = &columns;
   goal.anchor = state.positions + (1 - alpha_f) * (h * velocities + h * h * (0.5 - beta) * accelerations);
   // The velocity at the point of balance, were its acceleration all of the past.
   const Eigen::Matrix3Xd past = velocities + (1 - alpha_f) * h * (1 - gamma) * accelerations;

@@ -94,6 +94,7 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
   Potential goal = potential(loads.springs);
   std::optional<ContactStep> contact = contact_step(loads, state, state.time + h);
   goal.contact = contact ? &*contact : nullptr;
+  goal.columns = &columns;
   goal.anchor = state.positions;
   if (bdf2) {
     goal.anchor = (4 * state.positions - state.previous_positions) / 3;

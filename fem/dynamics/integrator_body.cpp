@@ -30,6 +30,7 @@ bool Integrator::Impl::Key::fits(const Divisors& others, const std::vector<Ancho
 void Integrator::Impl::forget_pins() {
   free.clear();
   preconditioner.reset();
+  columns.forget();
   mass_factor.reset();
   scheme.reset();
 }
@@ -66,6 +67,7 @@ ViscousDamping* Integrator::Impl::stiffness_damping() {
 void Integrator::Impl::prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs) {
   find_free();
   if (preconditioner && key_.fits(divisors, springs)) return;
+  columns.forget();
   const auto make_rest = [&](bool with_stiffness) {
     rest = rest_operator(system, with_stiffness);
     viscous_rest.reset();

@@ -37,6 +37,7 @@ struct Integrator::Impl {
   double contrast = -1;  // of stiffness; negative: not asked yet
   Eigen::SparseMatrix<double> inertia;
   std::unique_ptr<Preconditioner> preconditioner;
+  PreconditionerColumns columns;  // of that one
   // Explicit methods: M̃ + share (D̃ + rate M̃), factored.
   double mass_share = -1, mass_rate = 0;
   double damping_rate = 0;  // [1/s], what the method in use adds to the damping by density

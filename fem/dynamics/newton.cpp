@@ -164,6 +164,9 @@ class DirectionSolver {
       tangent = potential_.model->tangent(node_direction_, projection);
     }
     Stopwatch watch(clock_, report_.ms_solve);
+    std::unique_ptr<Preconditioner> corrected;
+    if (potential_.contact && potential_.columns)
+      corrected = with_contact(preconditioner_, *potential_.columns, *potential_.contact, p.cols());
     const LinearOutcome linear = pcg(
         [&](const Eigen::Matrix3Xd& d, Eigen::Matrix3Xd& result) {
           multiply(potential_.rest->rows, d, node_direction_);
@@ -174,7 +177,8 @@ class DirectionSolver {
           if (potential_.contact) potential_.contact->add_product(d, result);
           mask(*potential_.free, result);
         },
-        preconditioner_, force, direction_, options_.linear_tolerance, options_.linear_cap);
+        corrected ? *corrected : preconditioner_, force, direction_, options_.linear_tolerance,
+        options_.linear_cap);
     report_.linear_iterations += linear.iterations;
     return !linear.negative_curvature;
   }

@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include "fem/contact/contact.h"
+#include "fem/contact/contact_preconditioner.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/dynamics/viscous_damping.h"
 #include "fem/solvers/rest_operator.h"
@@ -27,9 +28,10 @@ struct Potential {
   Eigen::Matrix3Xd constant_force;             // g
   const std::vector<AnchorSpring>* springs = nullptr;
   const std::vector<std::uint8_t>* free = nullptr;
-  const ViscousDamping* viscous = nullptr;  // null: none
-  double viscous_coefficient = 0;           // 1/c
-  ContactStep* contact = nullptr;           // at the place of forces() that was asked for last; null: none
+  const ViscousDamping* viscous = nullptr;   // null: none
+  double viscous_coefficient = 0;            // 1/c
+  ContactStep* contact = nullptr;            // at the place of forces() that was asked for last; null: none
+  PreconditionerColumns* columns = nullptr;  // kept for contact by whoever keeps the preconditioner; null: plain
 
   [[nodiscard]] Forces forces(const Eigen::Matrix3Xd& p) const;
   [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& p) const;
