@@ -1,6 +1,5 @@
 #include "fem/contact/contact_preconditioner.h"
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "fem/parallel.h"
@@ -16,27 +15,36 @@ class WithContact final : public Preconditioner {
  public:
   WithContact(const Preconditioner& inner, PreconditionerColumns& columns, const ContactStep& contact,
               std::vector<std::uint32_t> touched, Eigen::Index count)
-      : inner_(inner), touched_(std::move(touched)) {
-    const auto size = static_cast<Eigen::Index>(3 * touched_.size());
-    for (const std::uint32_t c : touched_) columns_.push_back(&columns.of(inner, c, count));
-    stiffness_ = contact.stiffness(touched_);
+      : inner_(inner) {
+    for (const std::uint32_t c : touched) columns_.push_back(&columns.of(inner, c, count));
+    Eigen::MatrixXd stiffness = contact.stiffness(touched);
+    if (columns.last && columns.last->control_points == touched && columns.last->stiffness == stiffness) {
+      system_ = columns.last;
+      return;
+    }
+    const Eigen::Index size = stiffness.cols();
     Eigen::MatrixXd compliance(size, size);  // G
     for (Eigen::Index j = 0; j < size; ++j)
-      for (std::size_t i = 0; i < touched_.size(); ++i)
+      for (std::size_t i = 0; i < touched.size(); ++i)
         for (Eigen::Index axis = 0; axis < 3; ++axis)
-          compliance(3 * static_cast<Eigen::Index>(i) + axis, j) = (*columns_[static_cast<std::size_t>(j / 3)])(
-              3 * static_cast<Eigen::Index>(touched_[i]) + axis, j % 3);
-    system_.compute(Eigen::MatrixXd::Identity(size, size) + stiffness_ * compliance);
+          compliance(3 * static_cast<Eigen::Index>(i) + axis, j) =
+              (*columns_[static_cast<std::size_t>(j / 3)])(3 * static_cast<Eigen::Index>(touched[i]) + axis, j % 3);
+    auto system = std::make_shared<ContactSystem>();
+    system->factor.compute(Eigen::MatrixXd::Identity(size, size) + stiffness * compliance);
+    system->control_points = std::move(touched);
+    system->stiffness = std::move(stiffness);
+    columns.last = system_ = std::move(system);
   }
 
   PreconditionerKind kind() const override { return inner_.kind(); }
 
   void apply(const Eigen::Matrix3Xd& r, Eigen::Matrix3Xd& z) const override {
     inner_.apply(r, z);
-    Eigen::VectorXd there(stiffness_.cols());
-    for (std::size_t i = 0; i < touched_.size(); ++i)
-      there.segment<3>(3 * static_cast<Eigen::Index>(i)) = z.col(static_cast<Eigen::Index>(touched_[i]));
-    const Eigen::VectorXd held = system_.solve(stiffness_ * there);
+    const std::vector<std::uint32_t>& touched = system_->control_points;
+    Eigen::VectorXd there(system_->stiffness.cols());
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      there.segment<3>(3 * static_cast<Eigen::Index>(i)) = z.col(static_cast<Eigen::Index>(touched[i]));
+    const Eigen::VectorXd held = system_->factor.solve(system_->stiffness * there);
     parallel_for(static_cast<std::size_t>(z.cols()), 256, [&](std::size_t c) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (std::size_t i = 0; i < columns_.size(); ++i)
@@ -49,10 +57,8 @@ class WithContact final : public Preconditioner {
 
  private:
   const Preconditioner& inner_;
-  std::vector<std::uint32_t> touched_;
   std::vector<const Eigen::MatrixXd*> columns_;
-  Eigen::MatrixXd stiffness_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> system_;
+  std::shared_ptr<const ContactSystem> system_;
 };
 
 }  // namespace

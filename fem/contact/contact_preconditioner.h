@@ -6,6 +6,7 @@
 // columns M⁻¹E are solved for once for each control point that ever touches, while M stays; what touches may then
 // change with every iteration at the cost of a small dense system.
 
+#include <Eigen/LU>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -15,14 +16,26 @@
 
 namespace argil::fem {
 
+/// 1 + K G of what touched last, which stays the same while a body rests.
+struct ContactSystem {
+  std::vector<std::uint32_t> control_points;
+  Eigen::MatrixXd stiffness;  // K
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor;
+};
+
 /// Columns of M⁻¹, three a control point, each solved for on its own, so that they do not depend on when they were
 /// asked for.
 class PreconditionerColumns {
  public:
-  void forget() { columns_.clear(); }
+  void forget() {
+    columns_.clear();
+    last.reset();
+  }
   /// 3 N x 3: the answer to a unit force along each axis.
   const Eigen::MatrixXd& of(const Preconditioner& preconditioner, std::uint32_t control_point,
                             Eigen::Index control_point_count);
+
+  std::shared_ptr<const ContactSystem> last;
 
  private:
   std::map<std::uint32_t, Eigen::MatrixXd> columns_;
