@@ -148,11 +148,13 @@ void Session::drop_what_lost_its_points(State& next, bool topology_changed) cons
 }
 
 void Session::change(State next, subdiv::Delta delta, ColumnChanges columns) {
+  // Before the columns are applied: what is dropped here takes a copy of the motion, and leaves the one before
+  // alone.
+  drop_what_lost_its_points(next, !delta.empty() || !columns.empty());
   if (!columns.empty()) {
     apply(next, columns);
     next.columns_stamp = ++columns_stamp_;
   }
-  drop_what_lost_its_points(next, !delta.empty() || !columns.empty());
   done_.push_back({start_, next, std::move(delta), std::move(columns)});
   undone_.clear();
   tool_force_.reset();

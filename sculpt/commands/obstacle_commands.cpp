@@ -179,7 +179,7 @@ std::vector<Command> obstacle_commands() {
              .count = 3,
              .low = -1e6,
              .high = 1e6},
-            {.name = "rotate", .help = "by which it is", .unit = "deg", .low = -360, .high = 360},
+            {.name = "rotate", .help = "by which it is", .unit = "degrees", .low = -360, .high = 360},
             {.name = "from",
              .help = "one end of a capsule's axis",
              .unit = "m",

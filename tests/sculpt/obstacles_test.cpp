@@ -236,6 +236,27 @@ TEST(SessionObstacles, HashIsThatOfTheStateAtAnyNumberOfThreadsAndAfterUndo) {
   EXPECT_EQ(test.hash(), with);
 }
 
+TEST(SessionObstacles, AnEditLetsGoOfWhatFrictionHoldsAndIsUndone) {
+  for (const char* level : {"levels 0", "levels 1"}) {
+    SCOPED_TRACE(level);
+    TestSession test({"new box 2 2 1 size 0.2 0.2 0.1", level, "set density 1000",
+                      "obstacle floor plane friction 0.5", "gravity 1 0 -9.81", "step 20"});
+    ASSERT_FALSE(test.state().motion->grips.empty());
+    const std::uint64_t before = test.hash();
+    test.run({"extrude 0.1 where z > 0.09"});
+    EXPECT_TRUE(test.state().motion->grips.empty());
+    const std::uint64_t edited = test.hash();
+    test.run({"undo"});
+    EXPECT_EQ(test.hash(), before);
+    test.run({"redo"});
+    EXPECT_EQ(test.hash(), edited);
+    test.run({"step 5", "undo 2", "step 5", "undo"});
+    EXPECT_EQ(test.hash(), before);
+    test.run({"commit"});
+    EXPECT_FALSE(test.state().motion->grips.empty()) << "the body stays where it lies";
+  }
+}
+
 TEST(SessionObstacles, ABoxCatchesWhatStaysWithinHalfItsThicknessInAStep) {
   // Falling at 6 m/s through steps of 1/60 s: 0.1 m a step. A shelf of 0.3 m holds; of 0.02 m it may be passed.
   const auto fall = [](double thickness) {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "fem/simulated_solid.h"
+#include "tests/fem/simulated_solid.h"
 
 namespace argil::fem {
 namespace {
