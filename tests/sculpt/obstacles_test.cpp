@@ -77,7 +77,7 @@ TEST(SessionObstacles, AboveItTheBlockSlidesWithGravityLessFriction) {
   test.run({"step 60"});
   const double found = (test.measure("momentum_x") - first) / k_mass / (test.measure("time") - begin);
   const double angle = std::atan(0.5), expected = k_gravity * (std::sin(angle) - 0.3 * std::cos(angle));
-  EXPECT_NEAR(found, expected, 0.01 * expected);
+  EXPECT_NEAR(found, expected, 1e-3 * expected);  // it still swings a little after its landing
   // No force beyond the cone at any moment.
   EXPECT_NEAR(-test.measure("contact_force_x") / test.measure("contact_force_z"), 0.3, 1e-6);
 }
