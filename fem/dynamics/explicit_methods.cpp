@@ -9,10 +9,11 @@ namespace {
 
 struct Motion {
   Eigen::Matrix3Xd p, v;
+  double passed = 0;  // since the step began [s]
 };
 
 Motion forward_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
-  return {now.p + h * now.v, now.v + h * a};
+  return {now.p + h * now.v, now.v + h * a, now.passed + h};
 }
 
 Motion symplectic_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
@@ -25,7 +26,7 @@ Motion symplectic_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) 
 /// second order.
 template <class Accelerations>
 Motion velocity_verlet(const Motion& now, const Eigen::Matrix3Xd& a, const Accelerations& accelerations, double h) {
-  Motion next{now.p + h * now.v + (0.5 * h * h) * a, now.v + h * a};
+  Motion next{now.p + h * now.v + (0.5 * h * h) * a, now.v + h * a, h};
   next.v = now.v + (0.5 * h) * (a + accelerations(next));
   return next;
 }
@@ -49,7 +50,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
   Motion now{state.positions, state.velocities}, next;
   clear_held(free, now.v);
   const auto accelerations = [&](const Motion& at) {
-    return mass.solve(with_mass_damping(forces(loads, at.p, at.v), at.v));
+    return mass.solve(with_mass_damping(forces(loads, state, state.time + at.passed, at.p, at.v), at.v));
   };
   if (options.method == Method::central_difference) {
     // papers/004 eq. 20 less (2M + hD) p on both sides, where it would cancel; the factor is that of M + hD/2.
@@ -57,7 +58,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
       return mass.solve((h * h) * acting +
                         with_mass_damping(last * *system.mass, Eigen::Matrix3Xd((0.5 * h) * last)));
     };
-    const Eigen::Matrix3Xd acting = forces(loads, now.p, now.v);
+    const Eigen::Matrix3Xd acting = forces(loads, state, state.time, now.p, now.v);
     Eigen::Matrix3Xd last;
     if (state.previous_step == h) {
       last = now.p - state.previous_positions;
@@ -71,7 +72,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
     const MassFactor& again = factored_mass(0.5 * h);
     last = next.p - now.p;
     next.v = last / h;
-    const Eigen::Matrix3Xd following = forces(loads, next.p, next.v);
+    const Eigen::Matrix3Xd following = forces(loads, state, state.time + h, next.p, next.v);
     next.v = (last + again.solve((h * h) * following +
                                  with_mass_damping(last * *system.mass, Eigen::Matrix3Xd((0.5 * h) * last)))) /
              (2 * h);
@@ -93,7 +94,10 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
     }
   }
   if (!next.p.allFinite() || !next.v.allFinite()) fail_not_finite();
+  std::optional<ContactStep> contact = contact_step(loads, state, state.time + h);
+  std::vector<ContactGrip> grips = grips_at(contact, next.p);
   advance(state, std::move(next.p), std::move(next.v), h);
+  state.grips = std::move(grips);
   report.converged = true;
   if (clock) report.ms_forces = 1e3 * (clock() - start) - report.ms_tangent;
   return report;

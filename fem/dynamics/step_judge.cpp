@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "fem/contact/contact.h"
 #include "fem/parallel.h"
 
 namespace argil::fem {
@@ -23,9 +24,15 @@ double extent(const Eigen::Matrix3Xd& positions) {
   return (high - low).norm();
 }
 
-/// Work of loads and springs on the way, their forces and targets standing still.
-double work(const Loads& loads, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+/// Work of loads, springs and contact on the way, their forces, targets and obstacles standing still as at its end.
+double work(const Loads& loads, const BodyState& begin, const BodyState& end) {
+  const Eigen::Matrix3Xd &from = begin.positions, &to = end.positions;
   double sum = dead_work(loads, from, to);
+  if (loads.contact) {
+    ContactStep contact(*loads.contact, begin, end.time);
+    contact.set_state(to);
+    sum += contact.energy(from) - contact.energy(to);
+  }
   for (const AnchorSpring& spring : loads.springs)
     sum += 0.5 * spring.stiffness *
            ((held_point(spring, from) - spring.target).squaredNorm() -
@@ -93,12 +100,12 @@ Worth StepJudge::worth(const BodyState& state, double surplus) {
   return result;
 }
 
-GuardFinding StepJudge::judge(const Loads& loads, const Eigen::Matrix3Xd& from, const BodyState& to, double given,
+GuardFinding StepJudge::judge(const Loads& loads, const BodyState& from, const BodyState& to, double given,
                               Worth& before) {
   if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
   Worth next = worth(to, 0);
   if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-  const double gain = next.energy() - before.energy() - work(loads, from, to.positions) + given;
+  const double gain = next.energy() - before.energy() - work(loads, from, to) + given;
   next.surplus = std::max(0.0, before.surplus + gain);
   const double present = std::abs(next.energy());
   const double rounding = k_guard_rounding * (present + std::abs(before.energy()));
