@@ -6,6 +6,7 @@
 #include <array>
 
 #include "sculpt/commands/edit.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/force_tools/force_tool.h"
 
 namespace argil::sculpt {
@@ -49,13 +50,15 @@ void simulation_step(Session& session, const fem::Loads& tool, double time_step)
   const double begin = clock ? clock() : 0;
   State next = document.state();
   auto motion = std::make_shared<fem::BodyState>(*next.motion);
-  fem::Loads loads = document.loads();
-  add_loads(loads, tool);
   const fem::StepOptions options = step_options(next);
+  const double load_share = fem::load_share(next.method, next.spectral_radius);
   const bool was_frozen = next.guard.frozen;
   StepRecord record;
   for (int part = 0; part < next.substeps; ++part) {
     const double length = time_step / next.substeps;
+    fem::Loads loads = document.loads_at(motion->time + load_share * length);
+    add_loads(loads, tool);
+    if (!next.pins->motions.empty()) loads.led = led_points(*next.pins, *motion, motion->time + length);
     if (!next.guard_on) {
       fem::append(record.report, document.integrator().step(loads, *motion, length, options, clock));
       continue;

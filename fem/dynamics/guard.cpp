@@ -100,7 +100,7 @@ class Ladder {
     if (last_ == GuardFinding::not_finite || !moves_as_a_whole(system)) return false;
     Kept kept{{{}, 1, GuardRemedy::as_a_whole}, given_, given_worth_, {}};
     step_as_a_whole(system, loads_, kept.state, time_step_);
-    if (judge_.judge(loads_, given_.positions, kept.state, 0, kept.worth) != GuardFinding::none) return false;
+    if (judge_.judge(loads_, given_, kept.state, 0, kept.worth) != GuardFinding::none) return false;
     kept.sum.converged = true;
     kept.sum.preconditioner = PreconditionerKind::none;
     keep(std::move(kept));
@@ -191,8 +191,7 @@ class Ladder {
         given = std::max(0.0, held_back_work);
         held_back_work -= given;
       }
-      const GuardFinding finding =
-          judge_.judge(attempt.share < 1 ? held_back : loads_, trial.positions, next, given, worth);
+      const GuardFinding finding = judge_.judge(attempt.share < 1 ? held_back : loads_, trial, next, given, worth);
       if (finding == GuardFinding::inversion) turned_ = next.positions;
       if (finding != GuardFinding::none) return finding;
       trial = std::move(next);

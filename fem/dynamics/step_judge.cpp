@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "fem/dynamics/led_points.h"
 #include "fem/parallel.h"
 
 namespace argil::fem {
@@ -93,12 +94,13 @@ Worth StepJudge::worth(const BodyState& state, double surplus) {
   return result;
 }
 
-GuardFinding StepJudge::judge(const Loads& loads, const Eigen::Matrix3Xd& from, const BodyState& to, double given,
+GuardFinding StepJudge::judge(const Loads& loads, const BodyState& from, const BodyState& to, double given,
                               Worth& before) {
   if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
   Worth next = worth(to, 0);
   if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-  const double gain = next.energy() - before.energy() - work(loads, from, to.positions) + given;
+  const double gain = next.energy() - before.energy() - work(loads, from.positions, to.positions) -
+                      led_work(integrator_->system(), loads, from, to) + given;
   next.surplus = std::max(0.0, before.surplus + gain);
   const double present = std::abs(next.energy());
   const double rounding = k_guard_rounding * (present + std::abs(before.energy()));

@@ -24,10 +24,11 @@ class StepJudge {
   explicit StepJudge(Integrator& integrator);
 
   [[nodiscard]] Worth worth(const BodyState& state, double surplus);
-  /// Takes `before`, of the positions `from`, on to `to`, unless something is found. The work is that of `loads`,
-  /// their forces and targets standing still; `given` [J] is what among it is to be counted as made of nothing.
-  [[nodiscard]] GuardFinding judge(const Loads& loads, const Eigen::Matrix3Xd& from, const BodyState& to,
-                                   double given, Worth& before);
+  /// Takes `before`, which is that of `from`, on to `to`, unless something is found. The work is that of `loads`,
+  /// their forces and targets standing still, and of what leads points; `given` [J] is what among it is to be
+  /// counted as made of nothing.
+  [[nodiscard]] GuardFinding judge(const Loads& loads, const BodyState& from, const BodyState& to, double given,
+                                   Worth& before);
 
  private:
   Integrator* integrator_;
