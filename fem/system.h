@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,10 +32,19 @@ struct LedPoints {
   double time = 0;                            // [s]
 };
 
+struct Contact;  // fem/contact/contact.h
+
+/// Where friction holds a point of the surface (its number in ContactSurface), in the obstacle's own frame [m].
+struct ContactGrip {
+  std::uint32_t obstacle = 0, point = 0;  // the obstacle by its id
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
+};
+
 struct Loads {
   Eigen::Matrix3Xd forces;  // generalised, on control points [N]; empty means none
-  std::vector<AnchorSpring> springs;
-  LedPoints led = {};  // statics leaves them where they are
+  std::vector<AnchorSpring> springs = {};
+  std::shared_ptr<const Contact> contact = nullptr;  // obstacles and the surface that meets them; null: none
+  LedPoints led = {};                                // statics leaves them where they are
 };
 
 struct System {
@@ -47,6 +58,9 @@ struct System {
   /// What the model is made of, for damping in proportion to stiffness and for counting inverted cells; empty:
   /// none.
   std::span<const ElementBlock> blocks = {};
+  /// The model whose tangent at rest preconditioners are made of, where it is not `model`: that of the body before
+  /// it flowed, so that they do not depend on when they were made. Null: `model`.
+  const ForceModel* rest_model = nullptr;
 };
 
 /// History of the integrator. `previous_step` 0 means that there is none (the next step of a method of two steps is
@@ -57,6 +71,7 @@ struct BodyState {
   double previous_step = 0;                                  // [s]
   Eigen::Matrix3Xd accelerations;                            // of generalised-α; empty without
   double time = 0;                                           // [s]
+  std::vector<ContactGrip> grips = {};                       // by obstacle, then point, ascending
 };
 
 /// Nodes x = A p, and generalised forces Aᵀ f. Cost O(entries of A), in parallel by rows.

@@ -6,6 +6,7 @@
 
 #include "sculpt/document_loads.h"
 #include "sculpt/hash.h"
+#include "sculpt/obstacles.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -75,9 +76,13 @@ struct Document::Derived {
   std::uint64_t columns_stamp = 0;
   std::unique_ptr<fem::Discretization> discretization;
   std::unique_ptr<fem::ShownElements> shown_elements;
+  std::shared_ptr<const fem::PlasticFlow> shown_flow;
+  bool stress_is_known = true;
 
   fem::ModelChoice model_choice;
   std::unique_ptr<fem::ForceModel> model;
+  std::shared_ptr<const fem::PlasticFlow> flow;
+  std::unique_ptr<fem::ForceModel> flowed_model;  // null where nothing has flowed
 
   std::shared_ptr<const Pins> integrator_pins;
   std::unique_ptr<fem::Integrator> integrator;
@@ -88,10 +93,18 @@ struct Document::Derived {
   std::unique_ptr<fem::Loads> loads;  // at `load_time`, if that matters
   double load_time = 0;
 
-  void drop_from_discretization() {
+  std::shared_ptr<const fem::ContactSurface> contact_surface;
+
+  void drop_models() {
     integrator.reset();
-    load_parts.reset();
+    flowed_model.reset();
+    flow.reset();
     model.reset();
+  }
+  void drop_from_discretization() {
+    drop_models();
+    load_parts.reset();
+    contact_surface.reset();
     shown_elements.reset();
     discretization.reset();
   }
@@ -133,9 +146,9 @@ const fem::Discretization& Document::discretization() const {
                           d.space == state_.space && d.split == state_.split;
   if (same_shape && d.fields == state_.fields) return *d.discretization;
   const fem::NodalFields nodal = nodal_fields(*state_.fields);
-  d.integrator.reset();
+  d.drop_models();
   d.load_parts.reset();
-  d.model.reset();
+  d.contact_surface.reset();
   d.shown_elements.reset();
   d.fields.reset();  // in case what follows throws half way
   if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
@@ -155,11 +168,19 @@ const fem::ForceModel& Document::model() const {
   Derived& d = *derived_;
   const fem::Discretization& discretized = discretization();
   if (!d.model || d.model_choice != state_.model) {
-    d.integrator.reset();
+    d.drop_models();
     d.model = fem::make_model(state_.model, discretized.blocks, discretized.rest_nodes);
     d.model_choice = state_.model;
   }
-  return *d.model;
+  if (d.flow != state_.flow) {
+    std::unique_ptr<fem::ForceModel> flowed;
+    if (state_.flow && fem::fits(*state_.flow, discretized.blocks))
+      flowed = fem::make_flowed_model(state_.model, discretized.blocks, discretized.rest_nodes, *state_.flow);
+    if (d.integrator) d.integrator->set_model(flowed ? *flowed : *d.model);
+    d.flowed_model = std::move(flowed);
+    d.flow = state_.flow;
+  }
+  return d.flowed_model ? *d.flowed_model : *d.model;
 }
 
 fem::System Document::system() const {
@@ -169,6 +190,7 @@ fem::System Document::system() const {
   system.rows = &d.discretization->nodes.rows;
   system.rows_transposed = &d.discretization->rows_transposed;
   system.model = &force_model;
+  system.rest_model = d.model.get();
   system.rest_nodes = &d.discretization->rest_nodes;
   system.mass = &d.discretization->mass;
   system.damping = &d.discretization->damping;
@@ -207,11 +229,28 @@ const fem::Loads& Document::loads_at(double time) const {
   return *d.loads;
 }
 
+bool Document::stress_is_known() const {
+  (void)shown_elements();
+  return derived_->stress_is_known;
+}
+
+std::shared_ptr<const fem::ContactSurface> Document::contact_surface() const {
+  const fem::Discretization& discretized = discretization();
+  if (!derived_->contact_surface)
+    derived_->contact_surface = std::make_shared<fem::ContactSurface>(
+        fem::contact_surface(discretized, refinement().solid(), (*state_.fields)[FieldName::young_modulus]));
+  return derived_->contact_surface;
+}
+
 const fem::ShownElements& Document::shown_elements() const {
   (void)discretization();
-  if (!derived_->shown_elements)
+  if (derived_->shown_elements && derived_->shown_flow != state_.flow) derived_->shown_elements.reset();
+  if (!derived_->shown_elements) {
     derived_->shown_elements = std::make_unique<fem::ShownElements>(refinement().solid(), surface_nodes(rest()),
                                                                     nodal_fields(*state_.fields));
+    derived_->stress_is_known = !state_.flow || derived_->shown_elements->take_flow(*state_.flow);
+    derived_->shown_flow = state_.flow;
+  }
   return *derived_->shown_elements;
 }
 
@@ -246,11 +285,6 @@ std::uint64_t Document::state_hash() const {
     hash.add(std::uint64_t{selection.ids.size()});
     for (const std::uint32_t id : selection.ids) hash.add(std::uint64_t{id});
   };
-  const auto add_track = [&](const Track& track) {
-    hash.add(std::string_view(word(track.interpolation)));
-    hash.add(std::span(track.times));
-    add_matrix(track.values);
-  };
   hash.add(std::uint64_t{s.pins->control_points.size()});
   for (const std::uint32_t v : s.pins->control_points) hash.add(std::uint64_t{v});
   hash.add(std::uint64_t{s.pins->nodes.size()});
@@ -264,10 +298,10 @@ std::uint64_t Document::state_hash() const {
     add_selection(motion_of_pins.members);
     add_matrix(motion_of_pins.pivot);
     hash.add(motion_of_pins.since);
-    add_track(motion_of_pins.track);
+    add_to_hash(motion_of_pins.track, hash);
   }
   add_matrix(s.loads->gravity);
-  if (!s.loads->gravity_track.empty()) add_track(s.loads->gravity_track);
+  if (!s.loads->gravity_track.empty()) add_to_hash(s.loads->gravity_track, hash);
   hash.add(std::uint64_t{s.loads->forces.size()});
   for (const AppliedForce& force : s.loads->forces) {
     add_matrix(force.force);
@@ -276,7 +310,7 @@ std::uint64_t Document::state_hash() const {
     for (const std::uint32_t f : force.faces) hash.add(std::uint64_t{f});
     if (!force.cells.empty()) hash.add(std::span<const std::uint32_t>(force.cells));
     if (!force.name.empty()) hash.add(std::string_view(force.name));
-    if (!force.track.empty()) add_track(force.track);
+    if (!force.track.empty()) add_to_hash(force.track, hash);
   }
   add_selection(*s.selection);
   hash.add(std::uint64_t{s.sets->size()});
@@ -325,6 +359,20 @@ std::uint64_t Document::state_hash() const {
       hash.add(s.guard.pull);
     }
   }
+  for (const fem::ContactGrip& grip : motion.grips) {
+    hash.add(std::uint64_t{grip.obstacle});
+    hash.add(std::uint64_t{grip.point});
+    add_matrix(grip.anchor);
+  }
+  if (s.obstacles) hash_obstacles(*s.obstacles, hash);
+  if (s.plasticity.on) {
+    hash.add(std::string_view("plasticity"));
+    hash.add(s.plasticity.law.yield);
+    hash.add(s.plasticity.law.relaxation);
+  }
+  if (s.flow)
+    for (const auto& block : s.flow->inverse)
+      for (const Eigen::Matrix3d& inverse : block) add_matrix(inverse);
   return hash.value();
 }
 

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "fem/contact/contact_surface.h"
 #include "fem/discretization.h"
 #include "fem/dynamics/guard.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/measure/shown_elements.h"
 #include "fem/models/model_table.h"
+#include "fem/models/plastic_flow.h"
 #include "sculpt/tracks.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
@@ -39,6 +41,14 @@ struct Fields {
   std::array<Eigen::VectorXd, k_field_count> values;
   const Eigen::VectorXd& operator[](FieldName name) const { return values[static_cast<std::size_t>(name)]; }
   Eigen::VectorXd& operator[](FieldName name) { return values[static_cast<std::size_t>(name)]; }
+};
+
+struct NamedObstacle;  // obstacles.h
+
+/// How the body flows (fem/models/plastic_flow.h); not at all unless on.
+struct Plasticity {
+  bool on = false;
+  fem::FlowLaw law;
 };
 
 enum class ElementType { vertices, edges, faces, cells, nodes };
@@ -110,6 +120,9 @@ struct State {
   std::shared_ptr<const Fields> fields;
   std::shared_ptr<const Pins> pins;
   std::shared_ptr<const AppliedLoads> loads;
+  std::shared_ptr<const std::vector<NamedObstacle>> obstacles;  // null: none
+  Plasticity plasticity;
+  std::shared_ptr<const fem::PlasticFlow> flow;  // of the points of the discretization; null: none
   std::shared_ptr<const Selection> selection;
   std::shared_ptr<const std::map<std::string, Selection>> sets;
   int level = 0;
@@ -154,14 +167,18 @@ class Document {
   // Derived, made when asked for and kept while what they depend on stays.
   const subdiv::Refinement& refinement() const;
   const fem::Discretization& discretization() const;
-  const fem::ForceModel& model() const;
+  const fem::ForceModel& model() const;  // of the body as it has flowed
   fem::System system() const;
   fem::Integrator& integrator() const;
   /// Loads that do not come from a tool, in control points, with the soft pins as springs: now, and at another time
   /// [s] where some are keyed.
   const fem::Loads& loads() const { return loads_at(state_.motion->time); }
   const fem::Loads& loads_at(double time) const;
+  /// The boundary as obstacles meet it. @throws Error (bad_input) at level 0 with faces of other than four corners.
+  std::shared_ptr<const fem::ContactSurface> contact_surface() const;
   const fem::ShownElements& shown_elements() const;  // for strain and stress
+  /// False if the body has flowed in a space that integrates other elements than those shown.
+  bool stress_is_known() const;
   /// Nodes of the finest level as the space shows them (limit positions in cubic space), from control points; 3 x
   /// vertices.
   Eigen::Matrix3Xd surface_nodes(const Eigen::Matrix3Xd& control_points) const;

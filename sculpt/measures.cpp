@@ -13,6 +13,7 @@
 #include "sculpt/document_loads.h"
 #include "sculpt/force_tools/probe.h"
 #include "sculpt/near_names.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/region.h"
 #include "subdiv/boundary.h"
 #include "subdiv/error.h"
@@ -24,6 +25,32 @@ namespace {
 
 Eigen::Matrix3Xd present_nodes(const Document& document) {
   return subdiv::apply(document.discretization().nodes.rows, document.positions());
+}
+
+/// What the obstacles apply, and how deep the body is in them.
+fem::Wrench total_contact(const Document& document) {
+  const fem::BodyState& motion = *document.state().motion;
+  const auto contact = contact_at(document, motion.time);
+  return contact ? fem::contact_wrench(*contact, motion) : fem::Wrench{};
+}
+
+double largest_contact_depth(const Document& document) {
+  const fem::BodyState& motion = *document.state().motion;
+  const auto contact = contact_at(document, motion.time);
+  if (!contact) return 0;
+  fem::ContactStep step(*contact, motion, motion.time);
+  step.set_state(motion.positions);
+  double largest = 0;
+  for (const fem::Touch& touch : step.touches()) largest = std::max(largest, touch.depth);
+  return largest;
+}
+
+double largest_plastic_strain(const Document& document) {
+  double largest = 0;
+  if (document.state().flow)
+    for (const auto& block : fem::plastic_strain(*document.state().flow))
+      for (const double strain : block) largest = std::max(largest, strain);
+  return largest;
 }
 
 double axis_of(const std::string& name, const Eigen::Vector3d& v) {
@@ -62,7 +89,7 @@ double over_nodes(const Document& document, const MeasureQuery& query, const Eig
 }
 
 fem::Wrench total_reaction(const Document& document, const Expression* where) {
-  const Eigen::Matrix3Xd all = fem::reactions(document.system(), document.loads(), document.positions());
+  const Eigen::Matrix3Xd all = fem::reactions(document.system(), standing_loads(document), document.positions());
   fem::Wrench sum = fem::wrench(all, document.positions(), matching(document, ElementType::vertices, where));
   if (where) return sum;  // springs hold nodes, not control vertices
   const fem::Wrench soft = fem::wrench(document.loads().springs, document.positions());
@@ -117,6 +144,9 @@ const std::vector<MeasureInfo>& measure_table() {
         {"displacement", "m", "of a material point", true},
         {"felt_stiffness", "N/m", "of the body under the tool's brush at a material point, as the probe reads it",
          true},
+        {"contact_force", "N", "what the obstacles apply"},
+        {"contact_depth", "m", "largest depth of a point of the boundary in an obstacle"},
+        {"max_plastic_strain", "", "largest equivalent strain to which a quadrature point has flowed"},
         {"reaction", "N", "what the pins apply", false, true},
     };
     for (const DerivedField& field : derived_fields())
@@ -139,6 +169,8 @@ const std::vector<MeasureInfo>& measure_table() {
           {fmt::format("reaction_{}", axis), "N", fmt::format("along {}, what the pins apply", axis), false, true});
       all.push_back({fmt::format("reaction_moment_{}", axis), "N m",
                      fmt::format("about {} through the origin, what the pins apply", axis), false, true});
+      all.push_back(
+          {fmt::format("contact_force_{}", axis), "N", fmt::format("along {}, what the obstacles apply", axis)});
       all.push_back({fmt::format("momentum_{}", axis), "kg m/s", fmt::format("along {}", axis)});
       all.push_back(
           {fmt::format("angular_momentum_{}", axis), "kg m^2/s", fmt::format("about {} through the origin", axis)});
@@ -208,6 +240,9 @@ double measure(const Document& document, const MeasureQuery& query) {
                       asked.kind);
   if (name == "load_energy") return fem::load_potential(document.loads(), document.rest(), document.positions());
   if (name == "spring_energy") return fem::spring_energy(document.loads().springs, document.positions());
+  if (name == "contact_depth") return largest_contact_depth(document);
+  if (name.starts_with("contact_force")) return axis_of(name, total_contact(document).force);
+  if (name == "max_plastic_strain") return largest_plastic_strain(document);
   if (name == "min_volume_ratio")
     return fem::min_volume_ratio(document.discretization().blocks, present_nodes(document));
   if (name.starts_with("reaction_moment")) return axis_of(name, total_reaction(document, query.where).moment);

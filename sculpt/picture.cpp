@@ -1,5 +1,7 @@
 #include "sculpt/picture.h"
 
+#include "sculpt/obstacle_picture.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -224,6 +226,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   if (request.overlay) add_overlay(scene, *request.overlay);
   if (request.cage) add_cage(scene, document.solid(), document.positions());
   if (request.line) add_material_line(scene, document, *request.line);
+  add_obstacles(scene, document);
   if (request.marks) add_marks(scene, document, request, positions);
   if (request.underlay) {
     lay_under(scene, *request.underlay, request.field, request.underlay_wires);

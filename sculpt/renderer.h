@@ -73,6 +73,13 @@ struct SceneVolume {
   double opacity = 1;
 };
 
+/// What the body may lie on, in a quiet grey that lets it shine through; values are opacities, 1 where empty. It
+/// counts for nothing that is picked.
+struct SceneObstacle {
+  SceneSurface surface;
+  bool is_ground = false;  // drawn beneath the body where it faces the eye, and not framed
+};
+
 struct Scene {
   SceneSurface surface;  // the boundary, or with a clip plane the faces of the cells kept
   std::vector<std::array<Eigen::Vector3f, 2>> cage_lines;
@@ -80,6 +87,7 @@ struct Scene {
   std::vector<SceneArrow> arrows;  // loads
   std::vector<Eigen::Vector3f> pins;
   std::vector<SceneLines> lines;
+  std::vector<SceneObstacle> obstacles;
   std::optional<SceneVolume> volume;  // instead of the surface; with a legend
   std::vector<SceneLabel> labels;     // drawn with a small dot and a halo
   std::optional<SceneLegend> legend;  // with values: its map between low and high

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/obstacles.h"
 #include "sculpt/paths.h"
 #include "sculpt/recording.h"
 #include "subdiv/error.h"
@@ -137,11 +138,28 @@ std::string Session::place() const {
   return current_.tokens.empty() ? std::string{} : io::place_of(current_, current_.tokens[0]);
 }
 
+/// What belongs to points of the surface or of elements goes where these become others.
+void Session::drop_what_lost_its_points(State& next, bool topology_changed) const {
+  const bool same_points = !topology_changed && next.solid == start_.solid && next.level == start_.level &&
+                           next.rules == start_.rules && next.space == start_.space && next.split == start_.split;
+  const bool committed = next.rest != start_.rest && *next.rest == next.motion->positions;
+  if (!same_points || (next.rest != start_.rest && !committed)) drop_grips(next);
+  // In cubic space the fields decide which cells become one element.
+  const bool same_elements =
+      same_points && next.rest == start_.rest && (next.space != fem::Space::cubic || next.fields == start_.fields);
+  if (!next.flow || same_elements) return;
+  next.flow = nullptr;
+  print(
+      "the body is other than the one that flowed, so that it forgets its flow and draws back to its rest shape; "
+      "`commit` before such a change keeps the shape");
+}
+
 void Session::change(State next, subdiv::Delta delta, ColumnChanges columns) {
   if (!columns.empty()) {
     apply(next, columns);
     next.columns_stamp = ++columns_stamp_;
   }
+  drop_what_lost_its_points(next, !delta.empty() || !columns.empty());
   done_.push_back({start_, next, std::move(delta), std::move(columns)});
   undone_.clear();
   tool_force_.reset();

@@ -139,6 +139,7 @@ class Session {
     subdiv::Delta delta;
     ColumnChanges columns;
   };
+  void drop_what_lost_its_points(State& next, bool topology_changed) const;
   void trace(const std::string& what);
   void journal(const std::string& line);
   void execute(const io::SessionLine& line);

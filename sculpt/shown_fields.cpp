@@ -55,6 +55,12 @@ Eigen::VectorXd values_of(const Document& document, std::string_view name, const
   const auto& shown = document.shown_elements();
   const fem::StressLaw law = fem::stress_law(document.state().model.name);
   const int order = name.back() - '1';
+  if ((name.starts_with("stress") || name == "pressure") && !document.stress_is_known())
+    throw Error(
+        ErrorCode::unsupported,
+        fmt::format("the {} of a body that has flowed is known in the default space only; show its strain, or "
+                    "`commit` the shape, which leaves it without stress",
+                    name));
   if (name == "strain") return shown.equivalent_strain(now);
   if (name.starts_with("strain_")) return shown.principal_strain(now, order);
   if (name == "stress") return shown.von_mises_stress(now, law);

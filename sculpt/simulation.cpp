@@ -8,6 +8,7 @@
 #include "sculpt/commands/edit.h"
 #include "sculpt/document_loads.h"
 #include "sculpt/force_tools/force_tool.h"
+#include "sculpt/obstacles.h"
 
 namespace argil::sculpt {
 
@@ -42,39 +43,59 @@ const char* cause_of(fem::GuardFinding finding) {
   return "nothing";
 }
 
+/// Takes the body that has moved on, and lets it flow for `length` [s].
+void take_motion(Document& document, State next, const fem::BodyState& motion, double length) {
+  next.motion = std::make_shared<fem::BodyState>(motion);
+  if (next.plasticity.on && !next.guard.frozen) {
+    const fem::Discretization& d = document.discretization();
+    const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, motion.positions);
+    auto flow = next.flow ? std::make_shared<fem::PlasticFlow>(*next.flow) : std::make_shared<fem::PlasticFlow>();
+    const fem::FlowReport report = fem::flow(d.blocks, nodes, next.plasticity.law, length, *flow);
+    if (report.points > 0) next.flow = flow;
+  }
+  document.assign(std::move(next));
+}
+
 }  // namespace
 
 void simulation_step(Session& session, const fem::Loads& tool, double time_step) {
   Document& document = session.document();
   const fem::Clock clock = session.options().clock;
   const double begin = clock ? clock() : 0;
-  State next = document.state();
-  auto motion = std::make_shared<fem::BodyState>(*next.motion);
+  const State before = document.state();
+  State next = before;
+  fem::BodyState motion = *next.motion;
   const fem::StepOptions options = step_options(next);
   const double load_share = fem::load_share(next.method, next.spectral_radius);
   const bool was_frozen = next.guard.frozen;
   StepRecord record;
-  for (int part = 0; part < next.substeps; ++part) {
-    const double length = time_step / next.substeps;
-    fem::Loads loads = document.loads_at(motion->time + load_share * length);
-    add_loads(loads, tool);
-    if (!next.pins->motions.empty()) loads.led = led_points(*next.pins, *motion, motion->time + length);
-    if (!next.guard_on) {
-      fem::append(record.report, document.integrator().step(loads, *motion, length, options, clock));
-      continue;
+  const double length = time_step / next.substeps;
+  try {
+    for (int part = 0; part < next.substeps; ++part) {
+      fem::Loads loads = document.loads_at(motion.time + load_share * length);
+      add_loads(loads, tool);
+      loads.contact = contact_at(document, motion.time + length);
+      if (!next.pins->motions.empty()) loads.led = led_points(*next.pins, motion, motion.time + length);
+      if (next.guard_on) {
+        const fem::GuardedReport report =
+            fem::guarded_step(document.integrator(), loads, motion, next.guard, length, options, clock);
+        fem::append(record.report, report.step);
+        record.substeps = std::max(record.substeps, report.substeps);
+        if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
+        record.remedy = std::max(record.remedy, report.remedy);
+        record.share = std::min(record.share, report.share);
+      } else {
+        fem::append(record.report, document.integrator().step(loads, motion, length, options, clock));
+      }
+      take_motion(document, next, motion, length);
+      next = document.state();
     }
-    const fem::GuardedReport report =
-        fem::guarded_step(document.integrator(), loads, *motion, next.guard, length, options, clock);
-    fem::append(record.report, report.step);
-    record.substeps = std::max(record.substeps, report.substeps);
-    if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
-    record.remedy = std::max(record.remedy, report.remedy);
-    record.share = std::min(record.share, report.share);
+  } catch (...) {
+    document.assign(before);
+    throw;
   }
   const bool frozen_now = next.guard.frozen && !was_frozen, thawed_now = was_frozen && !next.guard.frozen;
   const fem::GuardFinding cause = next.guard.cause;
-  next.motion = motion;
-  document.assign(std::move(next));
   record.ms = clock ? 1e3 * (clock() - begin) : 0;
   session.step_done(record, tool);
   if (frozen_now)
@@ -82,10 +103,10 @@ void simulation_step(Session& session, const fem::Loads& tool, double time_step)
         fmt::format("the body is frozen at {:.6g} s: {} steps could not be saved from {}; undo, lower the "
                     "loads, step less far or choose another integrator or model, then `guard thaw`; it is tried "
                     "again by itself when less than half of what acts on it is left",
-                    motion->time, fem::k_guard_failures, cause_of(cause)));
+                    motion.time, fem::k_guard_failures, cause_of(cause)));
   if (thawed_now)
     session.print(fmt::format("the body moves again from {:.6g} s on, with less than half of what froze it",
-                              motion->time - time_step));
+                              motion.time - time_step));
 }
 
 void report_guard(const Session& session, std::size_t first_step) {

@@ -7,6 +7,7 @@
 #include "fem/measure/energy.h"
 #include "fem/measure/quality.h"
 #include "sculpt/force_tools/force_tool.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
 
@@ -55,6 +56,7 @@ Balance balance_of(const Document& document, const fem::Loads& tool) {
   balance.momentum = fem::momentum(system, motion);
   balance.tool = wrench_of(tool, motion.positions);
   const fem::Wrench soft = fem::wrench(loads.springs, motion.positions);
+  loads = standing_loads(document);
   add_loads(loads, tool);
   balance.reaction = fem::wrench(fem::reactions(system, loads, motion.positions), motion.positions);
   balance.reaction.force += soft.force;

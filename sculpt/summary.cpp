@@ -7,6 +7,7 @@
 
 #include "fem/solvers/solver_choice.h"
 #include "sculpt/measures.h"
+#include "sculpt/obstacles.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -104,6 +105,13 @@ std::string summary_json(const Session& session, const std::string& name, int th
   for (const PinMotion& motion : document.state().pins->motions) keyed.push_back("pin " + motion.name);
   if (!keyed.empty()) json["keyed"] = keyed;
   json["threads"] = threads;
+  if (document.state().obstacles) {
+    ordered_json obstacles = ordered_json::array();
+    for (const NamedObstacle& obstacle : *document.state().obstacles) obstacles.push_back(description(obstacle));
+    json["obstacles"] = obstacles;
+  }
+  if (const Plasticity& plasticity = document.state().plasticity; plasticity.on)
+    json["plasticity"] = {{"yield_Pa", plasticity.law.yield}, {"creep_s", plasticity.law.relaxation}};
   ordered_json measures = ordered_json::array();
   for (const MeasureRecord& record : session.measures())
     measures.push_back({{"name", record.name}, {"value", record.value}, {"line", record.line}});

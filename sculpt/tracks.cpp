@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "sculpt/hash.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -132,6 +133,12 @@ Eigen::VectorXd rate_at(const Track& track, double time) {
   return result;
 }
 
+void add_to_hash(const Track& track, Hash& hash) {
+  hash.add(std::string_view(word(track.interpolation)));
+  hash.add(std::span<const double>(track.times));
+  hash.add(std::span<const double>(track.values.data(), static_cast<std::size_t>(track.values.size())));
+}
+
 RigidMotion RigidMotion::operator*(const RigidMotion& first) const {
   return {rotation * first.rotation, rotation * first.translation + translation};
 }
@@ -150,17 +157,19 @@ RigidMotion motion_at(const Track& track, const Eigen::Vector3d& pivot, double t
   return motion;
 }
 
-Eigen::Vector3d velocity_at(const Track& track, const Eigen::Vector3d& pivot, double time,
-                            const Eigen::Vector3d& point) {
-  const Eigen::VectorXd value = value_at(track, time), rate = rate_at(track, time);
-  const Eigen::Vector3d way = value.head<3>(), turn = value.tail<3>();
-  const Eigen::Vector3d turning = rate.tail<3>();
+Eigen::Vector3d angular_velocity_at(const Track& track, double time) {
+  const Eigen::Vector3d turn = value_at(track, time).tail<3>(), turning = rate_at(track, time).tail<3>();
   // The spatial angular velocity of a rotation vector: its left Jacobian, by series where it is small.
   const double angle = turn.norm(), square = angle * angle;
   const double a = angle > 1e-4 ? (1 - std::cos(angle)) / square : 0.5 - square / 24;
   const double b = angle > 1e-4 ? (angle - std::sin(angle)) / (square * angle) : 1.0 / 6 - square / 120;
-  const Eigen::Vector3d angular = turning + a * turn.cross(turning) + b * turn.cross(turn.cross(turning));
-  return rate.head<3>() + angular.cross(point - pivot - way);
+  return turning + a * turn.cross(turning) + b * turn.cross(turn.cross(turning));
+}
+
+Eigen::Vector3d velocity_at(const Track& track, const Eigen::Vector3d& pivot, double time,
+                            const Eigen::Vector3d& point) {
+  const Eigen::Vector3d way = value_at(track, time).head<3>(), speed = rate_at(track, time).head<3>();
+  return speed + angular_velocity_at(track, time).cross(point - pivot - way);
 }
 
 }  // namespace argil::sculpt

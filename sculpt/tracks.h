@@ -10,6 +10,8 @@
 
 namespace argil::sculpt {
 
+class Hash;
+
 enum class Interpolation { smooth, linear, step };
 [[nodiscard]] const char* word(Interpolation interpolation);
 /// @throws Error (not_found) that lists the words.
@@ -31,6 +33,7 @@ struct Track {
 void set_key(Track& track, double time, const Eigen::VectorXd& value);
 /// False if there is none.
 bool remove_key(Track& track, double time);
+void add_to_hash(const Track& track, Hash& hash);
 
 /// The value at a time, and how fast it changes on the way there (from the left; of a step: 0). The track has keys.
 /// Cost O(log keys).
@@ -52,6 +55,8 @@ struct RigidMotion {
 /// Of a track of 6 components, the way of the pivot [m] and the turn about it as a rotation vector [rad]: a turn
 /// about one axis passes through every angle between two keys, several times round if it says so.
 [[nodiscard]] RigidMotion motion_at(const Track& track, const Eigen::Vector3d& pivot, double time);
+/// Of that turn, in the world [rad/s].
+[[nodiscard]] Eigen::Vector3d angular_velocity_at(const Track& track, double time);
 /// Velocity [m/s] of the point of the moving body that is at `point` then.
 [[nodiscard]] Eigen::Vector3d velocity_at(const Track& track, const Eigen::Vector3d& pivot, double time,
                                           const Eigen::Vector3d& point);

@@ -5,15 +5,14 @@
 
 namespace argil::fem {
 
-/// `loads` with a dead force that holds back all but `share` of what is out of balance at `positions`: loads,
-/// springs and the model's forces together. With share 0 a body at rest there stays.
-[[nodiscard]] Loads eased(const System& system, const Loads& loads, const Eigen::Matrix3Xd& positions,
-                          double share);
+/// `loads` with a dead force that holds back all but `share` of what is out of balance at `state`: loads,
+/// springs, contact and the model's forces together. With share 0 a body at rest there stays.
+[[nodiscard]] Loads eased(const System& system, const Loads& loads, const BodyState& state, double share);
 
-/// Σ |force| over the control points, and over the springs [N].
+/// Σ |force| over the control points, and over springs and contact [N].
 struct LoadSize {
   double dead = 0, pull = 0;
 };
-[[nodiscard]] LoadSize size_of(const Loads& loads, const Eigen::Matrix3Xd& positions);
+[[nodiscard]] LoadSize size_of(const Loads& loads, const BodyState& state);
 
 }  // namespace argil::fem

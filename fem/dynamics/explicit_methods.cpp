@@ -10,10 +10,11 @@ namespace {
 
 struct Motion {
   Eigen::Matrix3Xd p, v;
+  double passed = 0;  // since the step began [s]
 };
 
 Motion forward_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
-  return {now.p + h * now.v, now.v + h * a};
+  return {now.p + h * now.v, now.v + h * a, now.passed + h};
 }
 
 Motion symplectic_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) {
@@ -26,7 +27,7 @@ Motion symplectic_euler(const Motion& now, const Eigen::Matrix3Xd& a, double h) 
 /// second order.
 template <class Accelerations>
 Motion velocity_verlet(const Motion& now, const Eigen::Matrix3Xd& a, const Accelerations& accelerations, double h) {
-  Motion next{now.p + h * now.v + (0.5 * h * h) * a, now.v + h * a};
+  Motion next{now.p + h * now.v + (0.5 * h * h) * a, now.v + h * a, h};
   next.v = now.v + (0.5 * h) * (a + accelerations(next));
   return next;
 }
@@ -59,7 +60,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
     return all;
   };
   const auto accelerations = [&](const Motion& at) {
-    Eigen::Matrix3Xd acting = with_mass_damping(forces(loads, at.p, at.v), at.v);
+    Eigen::Matrix3Xd acting = with_mass_damping(forces(loads, state, state.time + at.passed, at.p, at.v), at.v);
     if (leads) acting -= spread(led.accelerations) * *system.mass;
     Eigen::Matrix3Xd result = mass.solve(acting);
     set_led_columns(loads.led, led.accelerations, result);
@@ -76,7 +77,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
       return Eigen::Matrix3Xd((h * h) * acting + with_mass_damping((last - way) * *system.mass,
                                                                    Eigen::Matrix3Xd((0.5 * h) * (last + way))));
     };
-    const Eigen::Matrix3Xd acting = forces(loads, now.p, now.v);
+    const Eigen::Matrix3Xd acting = forces(loads, state, state.time, now.p, now.v);
     Eigen::Matrix3Xd last;
     if (state.previous_step == h) {
       last = now.p - state.previous_positions;
@@ -96,7 +97,7 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
     const MassFactor& again = factored_mass(0.5 * h);
     last = next.p - now.p;
     next.v = last / h;
-    const Eigen::Matrix3Xd following = forces(loads, next.p, next.v);
+    const Eigen::Matrix3Xd following = forces(loads, state, state.time + h, next.p, next.v);
     next.v = (last + again.solve(acting_and_past(following, last, h * led.velocities))) / (2 * h);
   } else {
     const Eigen::Matrix3Xd a = accelerations(now);
@@ -118,7 +119,10 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
   set_led_columns(loads.led, led.positions, next.p);
   set_led_columns(loads.led, led.velocities, next.v);
   if (!next.p.allFinite() || !next.v.allFinite()) fail_not_finite();
+  std::optional<ContactStep> contact = contact_step(loads, state, state.time + h);
+  std::vector<ContactGrip> grips = grips_at(contact, next.p);
   advance(state, std::move(next.p), std::move(next.v), h);
+  state.grips = std::move(grips);
   report.converged = true;
   if (clock) report.ms_forces = 1e3 * (clock() - start) - report.ms_tangent;
   return report;

@@ -30,13 +30,15 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   clear_held(free, velocities);
   set_led_columns(loads.led, led_columns(loads.led, state.velocities), velocities);
   if (accelerations.cols() != size())
-    accelerations =
-        factored_mass(0).solve(with_mass_damping(forces(loads, state.positions, velocities), velocities));
+    accelerations = factored_mass(0).solve(
+        with_mass_damping(forces(loads, state, state.time, state.positions, velocities), velocities));
   const Eigen::Matrix3Xd led_accelerations = led_columns(loads.led, accelerations);
   clear_held(free, accelerations);
   set_led_columns(loads.led, led_accelerations, accelerations);
 
   Potential goal = potential(loads.springs);
+  std::optional<ContactStep> contact = contact_step(loads, state, state.time + (1 - alpha_f) * h);
+  goal.contact = contact ? &*contact : nullptr;
   goal.anchor = state.positions + (1 - alpha_f) * (h * velocities + h * h * (0.5 - beta) * accelerations);
   // The velocity at the point of balance, were its acceleration all of the past.
   const Eigen::Matrix3Xd past = velocities + (1 - alpha_f) * h * (1 - gamma) * accelerations;
@@ -61,7 +63,9 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   Eigen::Matrix3Xd next_velocities = velocities + h * ((1 - gamma) * accelerations + gamma * next_accelerations);
   set_led_columns(loads.led, led.positions, next_positions);
   set_led_columns(loads.led, led.velocities, next_velocities);
+  std::vector<ContactGrip> grips = grips_at(contact, q);
   advance(state, std::move(next_positions), std::move(next_velocities), h);
+  state.grips = std::move(grips);
   state.accelerations = next_accelerations;
   return report;
 }

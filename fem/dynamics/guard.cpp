@@ -30,12 +30,13 @@ BodyState at_rest(const BodyState& state) {
   result.positions = state.positions;
   result.velocities.setZero(3, state.positions.cols());
   result.time = state.time;
+  result.grips = state.grips;
   return result;
 }
 
 /// True if less than half is left of what acted when the body froze.
-bool has_lessened(const Loads& loads, const Eigen::Matrix3Xd& positions, const GuardState& guard) {
-  const LoadSize load = size_of(loads, positions);
+bool has_lessened(const Loads& loads, const BodyState& state, const GuardState& guard) {
+  const LoadSize load = size_of(loads, state);
   return load.dead < k_guard_thaw * guard.dead_load || load.pull < k_guard_thaw * guard.pull;
 }
 
@@ -171,7 +172,7 @@ class Ladder {
     Loads held_back;
     double held_back_work = 0;  // of the dead force that eases, over the step until here [J]
     if (attempt.share < 1) {
-      held_back = eased(integrator_.system(), loads_, trial.positions, attempt.share);
+      held_back = eased(integrator_.system(), loads_, trial, attempt.share);
       if (!held_back.forces.allFinite()) return GuardFinding::not_finite;
     }
     for (; parts < attempt.parts; ++parts) {
@@ -258,7 +259,7 @@ std::string_view word(GuardRemedy remedy) {
 
 GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState& state, GuardState& guard,
                            double time_step, const StepOptions& options, Clock clock) {
-  if (guard.frozen && !has_lessened(loads, state.positions, guard)) {
+  if (guard.frozen && !has_lessened(loads, state, guard)) {
     GuardedReport report;
     const double time = state.time + time_step;
     state = at_rest(state);
@@ -313,7 +314,7 @@ GuardedReport guarded_step(Integrator& integrator, const Loads& loads, BodyState
   guard.cause = ladder.report.finding;
   guard.frozen = ++guard.failures >= k_guard_failures;
   if (guard.frozen) {
-    const LoadSize load_now = size_of(loads, state.positions);
+    const LoadSize load_now = size_of(loads, state);
     guard.dead_load = load_now.dead;
     guard.pull = load_now.pull;
   }

@@ -42,6 +42,12 @@ void Integrator::set_fixed(std::vector<std::uint8_t> fixed) {
   impl_->forget_pins();
 }
 
+void Integrator::set_model(const ForceModel& model) {
+  assert(impl_->system.rest_model);
+  impl_->system.model = &model;
+  impl_->forget_values();
+}
+
 const System& Integrator::system() const {
   return impl_->system;
 }
@@ -87,6 +93,8 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
 
   Eigen::Matrix3Xd velocity = state.velocities;  // v̄
   Potential goal = potential(loads.springs);
+  std::optional<ContactStep> contact = contact_step(loads, state, state.time + h);
+  goal.contact = contact ? &*contact : nullptr;
   goal.anchor = state.positions;
   if (bdf2) {
     goal.anchor = (4 * state.positions - state.previous_positions) / 3;
@@ -124,7 +132,9 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
   minimise(goal, *preconditioner, newton, p, report, clock);
   if (one_solve) report.converged = true;
   Eigen::Matrix3Xd next = (p - goal.anchor) / c;
+  std::vector<ContactGrip> grips = grips_at(contact, p);
   advance(state, std::move(p), std::move(next), h);
+  state.grips = std::move(grips);
   return report;
 }
 

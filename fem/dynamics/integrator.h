@@ -50,6 +50,9 @@ class Integrator {
   /// To be called when materials, mass, damping or rest positions have changed behind the system's pointers (a
   /// force model at another address needs a new integrator).
   void materials_changed();
+  /// Takes another model of the same body, as after it flowed; what was made of System::rest_model, which must be
+  /// given, is kept.
+  void set_model(const ForceModel& model);
   /// Takes other pins; the rest operator is kept.
   void set_fixed(std::vector<std::uint8_t> fixed);
 

@@ -39,9 +39,13 @@ void Integrator::Impl::forget_materials() {
   viscous_rest.reset();
   viscous.reset();
   contrast = -1;
+  forget_values();
+  forget_pins();
+}
+
+void Integrator::Impl::forget_values() {
   forces_at_.resize(3, 0);
   energy_at_.resize(3, 0);
-  forget_pins();
 }
 
 void Integrator::Impl::find_free() {
@@ -173,11 +177,15 @@ double Integrator::Impl::elastic_energy(const Eigen::Matrix3Xd& positions) {
   return elastic_energy_;
 }
 
-Eigen::Matrix3Xd Integrator::Impl::forces(const Loads& loads, const Eigen::Matrix3Xd& positions,
-                                          const Eigen::Matrix3Xd& velocities) {
+Eigen::Matrix3Xd Integrator::Impl::forces(const Loads& loads, const BodyState& begin, double time,
+                                          const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& velocities) {
   Eigen::Matrix3Xd result = elastic_forces(positions), x, v, node_forces, damping_forces;
   if (loads.forces.cols() > 0) result += loads.forces;
   add_spring_forces(loads.springs, positions, result);
+  if (std::optional<ContactStep> contact = contact_step(loads, begin, time)) {
+    contact->set_state(positions);
+    contact->add_forces(result);
+  }
   multiply(*system.rows, positions, x);
   multiply(*system.rows, velocities, v);
   system.model->velocity_forces(x, v, node_forces);
@@ -207,6 +215,17 @@ NewtonOptions newton_options(const StepOptions& options) {
   newton.linear_tolerance = options.linear_tolerance;
   newton.linear_cap = options.linear_cap;
   return newton;
+}
+
+std::optional<ContactStep> contact_step(const Loads& loads, const BodyState& begin, double time) {
+  if (!loads.contact || loads.contact->obstacles.empty()) return std::nullopt;
+  return std::optional<ContactStep>(std::in_place, *loads.contact, begin, time);
+}
+
+std::vector<ContactGrip> grips_at(std::optional<ContactStep>& contact, const Eigen::Matrix3Xd& positions) {
+  if (!contact) return {};
+  contact->set_state(positions);
+  return contact->grips();
 }
 
 void advance(BodyState& state, Eigen::Matrix3Xd positions, Eigen::Matrix3Xd velocities, double h) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "fem/contact/contact.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/dynamics/newton.h"
 #include "fem/dynamics/viscous_damping.h"
@@ -45,6 +46,7 @@ struct Integrator::Impl {
   Eigen::Index size() const { return static_cast<Eigen::Index>(system.rows->column_count); }
   void forget_materials();
   void forget_pins();
+  void forget_values();  // of forces and energy
 
   /// Makes what implicit steps with these divisors need, unless it is there.
   void prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs);
@@ -62,9 +64,10 @@ struct Integrator::Impl {
   Eigen::Matrix3Xd velocity_forces(const BodyState& state) const;
   const Eigen::Matrix3Xd& elastic_forces(const Eigen::Matrix3Xd& positions);
   double elastic_energy(const Eigen::Matrix3Xd& positions);
-  /// All that acts but for the damping by density, which with_mass_damping() adds.
-  Eigen::Matrix3Xd forces(const Loads& loads, const Eigen::Matrix3Xd& positions,
-                          const Eigen::Matrix3Xd& velocities);
+  /// All that acts at a time of a step that began with `begin`, but for the damping by density, which
+  /// with_mass_damping() adds.
+  Eigen::Matrix3Xd forces(const Loads& loads, const BodyState& begin, double time,
+                          const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& velocities);
   Eigen::Matrix3Xd with_mass_damping(Eigen::Matrix3Xd forces, const Eigen::Matrix3Xd& velocities) const;
 
   StepReport incremental_step(const Loads& loads, BodyState& state, double h, const StepOptions& options,
@@ -94,6 +97,11 @@ struct Integrator::Impl {
 /// Whether they hold the same points alike, wherever they pull them.
 [[nodiscard]] bool same_hold(const std::vector<AnchorSpring>& a, const std::vector<AnchorSpring>& b);
 [[nodiscard]] NewtonOptions newton_options(const StepOptions& options);
+/// Contact of a step that begins with `begin`, at a time of it; nothing without obstacles.
+[[nodiscard]] std::optional<ContactStep> contact_step(const Loads& loads, const BodyState& begin, double time);
+/// What the state has that ends the step with these control points.
+[[nodiscard]] std::vector<ContactGrip> grips_at(std::optional<ContactStep>& contact,
+                                                const Eigen::Matrix3Xd& positions);
 /// The state one step on, its history the present one.
 void advance(BodyState& state, Eigen::Matrix3Xd positions, Eigen::Matrix3Xd velocities, double h);
 /// Columns that are not free are set to zero.

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "fem/contact/contact.h"
+
 namespace argil::fem {
 
 namespace {
@@ -60,10 +62,12 @@ double led_work(const System& system, const Loads& loads, const BodyState& from,
   const Eigen::Matrix3Xd before = forces_on(system, loads, from.positions);
   const Eigen::Matrix3Xd after = forces_on(system, loads, to.positions);
   const Eigen::Matrix3Xd inertia = ((to.velocities - from.velocities) / length) * *system.mass;
+  Eigen::Matrix3Xd touching = Eigen::Matrix3Xd::Zero(3, to.positions.cols());
+  if (loads.contact) touching = contact_forces(*loads.contact, to);
   double sum = 0;
   for (std::size_t i = 0; i < led.control_points.size(); ++i) {
     const Eigen::Index c = column_of(led, i);
-    const Eigen::Vector3d force = inertia.col(c) - 0.5 * (before.col(c) + after.col(c));
+    const Eigen::Vector3d force = inertia.col(c) - 0.5 * (before.col(c) + after.col(c)) - touching.col(c);
     sum += force.dot(to.positions.col(c) - from.positions.col(c));
   }
   return sum;

@@ -89,6 +89,10 @@ Forces Potential::forces(const Eigen::Matrix3Xd& p) const {
   multiply(rest->rows, p, x);
   model->forces(x, node_forces);
   multiply(rest->rows_transposed, node_forces, result.elastic);
+  if (contact) {
+    contact->set_state(p);
+    contact->add_forces(result.elastic);
+  }
   result.total = result.elastic + constant_force;
   if (inertia->size() > 0) add_symmetric_product(*inertia, p - anchor, -1.0, result.total);
   if (viscous) add_viscous_product(*this, p - anchor, -1.0, result.total);
@@ -107,6 +111,10 @@ double Potential::elastic_energy(const Eigen::Matrix3Xd& p) const {
   return model->energy(x);
 }
 
+double Potential::contact_energy(const Eigen::Matrix3Xd& p) const {
+  return contact ? contact->energy(p) : 0;
+}
+
 void Potential::constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const {
   result.setZero(3, direction.cols());
   if (inertia->size() > 0) add_symmetric_product(*inertia, direction, 1.0, result);
@@ -120,10 +128,11 @@ void Potential::constant_stiffness_product(const Eigen::Matrix3Xd& direction, Ei
 
 double Potential::rounding(const Eigen::Matrix3Xd& p) const {
   double sum = 0;
+  const Eigen::VectorXd touched = contact ? contact->diagonal() : Eigen::VectorXd::Zero(p.cols());
   for (std::size_t i = 0; i < free->size(); ++i) {
     if (!(*free)[i]) continue;
     const auto c = static_cast<Eigen::Index>(i);
-    double diagonal = rest->diagonal[i].diagonal().maxCoeff();
+    double diagonal = rest->diagonal[i].diagonal().maxCoeff() + touched[c];
     if (inertia->size() > 0) diagonal += inertia->coeff(c, c);
     sum += p.col(c).squaredNorm() * diagonal * diagonal;
   }
@@ -162,6 +171,7 @@ class DirectionSolver {
           multiply(potential_.rest->rows_transposed, node_product_, result);
           potential_.constant_stiffness_product(d, product_);
           result += product_;
+          if (potential_.contact) potential_.contact->add_product(d, result);
           mask(*potential_.free, result);
         },
         preconditioner_, force, direction_, options_.linear_tolerance, options_.linear_cap);
@@ -213,7 +223,7 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     LineFunction line;
     if (has_energy && options.line_search) {
       if (!energy) energy = potential.elastic_energy(p);
-      line.start_energy = *energy;
+      line.start_energy = *energy + potential.contact_energy(p);
       line.slope = descent + dot(forces.elastic, direction);
       potential.constant_stiffness_product(direction, product);
       line.curvature = dot(direction, product);
@@ -229,8 +239,9 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
         trial_forces = potential.forces(trial);
       } else if (has_energy) {
         energy = potential.elastic_energy(trial);
-        const double slack = 64 * k_epsilon * (std::abs(*energy) + std::abs(line.start_energy));
-        accepted = line.change(length, *energy) <= k_armijo * length * descent + slack;
+        const double stored = *energy + potential.contact_energy(trial);
+        const double slack = 64 * k_epsilon * (std::abs(stored) + std::abs(line.start_energy));
+        accepted = line.change(length, stored) <= k_armijo * length * descent + slack;
       } else {
         trial_forces = potential.forces(trial);
         accepted = trial_forces.total.norm() <= (1 - k_armijo * length) * residual;

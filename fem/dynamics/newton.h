@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "fem/contact/contact.h"
 #include "fem/dynamics/integrator.h"
 #include "fem/dynamics/viscous_damping.h"
 #include "fem/solvers/rest_operator.h"
@@ -14,7 +15,7 @@ namespace argil::fem {
 
 struct Forces {
   Eigen::Matrix3Xd total;    // −∂Φ/∂p in the free control points, zero elsewhere
-  Eigen::Matrix3Xd elastic;  // Aᵀ f of the model, everywhere
+  Eigen::Matrix3Xd elastic;  // Aᵀ f of the model and of contact, everywhere: what is not linear
   double held = 0;           // 2-norm of −∂Φ/∂p in the other control points: the size of the reactions
 };
 
@@ -28,9 +29,12 @@ struct Potential {
   const std::vector<std::uint8_t>* free = nullptr;
   const ViscousDamping* viscous = nullptr;  // null: none
   double viscous_coefficient = 0;           // 1/c
+  ContactStep* contact = nullptr;           // at the place of forces() that was asked for last; null: none
 
   [[nodiscard]] Forces forces(const Eigen::Matrix3Xd& p) const;
   [[nodiscard]] double elastic_energy(const Eigen::Matrix3Xd& p) const;
+  /// Of contact, with friction limited as where forces() was asked for last.
+  [[nodiscard]] double contact_energy(const Eigen::Matrix3Xd& p) const;
   /// (C + springs) · direction: the part of the Hessian that does not change, in all control points.
   void constant_stiffness_product(const Eigen::Matrix3Xd& direction, Eigen::Matrix3Xd& result) const;
   /// Norm of the rounding error of the force: machine precision times the terms that cancel in it.

@@ -45,6 +45,11 @@ const PublishedScheme& Integrator::Impl::published_scheme(const std::vector<Anch
 
 StepReport Integrator::Impl::published_step(const Loads& loads, BodyState& state, double h,
                                             const StepOptions& options, Clock clock) {
+  if (loads.contact && !loads.contact->obstacles.empty())
+    throw Error(
+        ErrorCode::unsupported,
+        "the published integrator takes its step and damping from the stiffness of the body at rest, to which "
+        "obstacles add; remove them, or choose another integrator");
   const double start = clock ? clock() : 0;
   const PublishedScheme& by = published_scheme(loads.springs);
   const double parts = std::max(1.0, std::ceil(h / by.longest_step * (1 - 1e-12)));

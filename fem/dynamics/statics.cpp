@@ -17,9 +17,16 @@ constexpr double k_smallest_load_step = 1.0 / 256;
 
 StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const StepOptions& options, Clock clock) {
   Impl& body = *impl_;
-  body.prepare({}, loads.springs);
+  std::optional<ContactStep> contact = contact_step(loads, state, state.time);
+  // What touches now holds the body, and is what the preconditioner is made for.
+  Loads held = loads;
+  if (contact) {
+    contact->set_state(state.positions);
+    for (AnchorSpring& spring : contact->springs()) held.springs.push_back(std::move(spring));
+  }
+  body.prepare({}, held.springs);
   const Eigen::Matrix3Xd forces = body.load_forces(loads);
-  check_rigid_motions(body.system, loads, body.rest->touched, state.positions, forces);
+  check_rigid_motions(body.system, held, body.rest->touched, state.positions, forces);
 
   StepReport report;
   NewtonOptions newton;
@@ -39,6 +46,7 @@ StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const 
     }
     Potential potential = body.potential(springs);
     potential.constant_force = share * forces;
+    potential.contact = contact ? &*contact : nullptr;
     minimise(potential, *body.preconditioner, newton, p, report, clock);
     return report.converged;
   };
@@ -65,10 +73,12 @@ StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const 
   }
   const Eigen::Index n = p.cols();
   const double time = state.time;
+  std::vector<ContactGrip> grips = grips_at(contact, p);
   state = BodyState{};
   state.positions = std::move(p);
   state.velocities.setZero(3, n);
   state.time = time;
+  state.grips = std::move(grips);
   return report;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "fem/contact/contact.h"
 #include "fem/dynamics/led_points.h"
 #include "fem/parallel.h"
 
@@ -24,9 +25,15 @@ double extent(const Eigen::Matrix3Xd& positions) {
   return (high - low).norm();
 }
 
-/// Work of loads and springs on the way, their forces and targets standing still.
-double work(const Loads& loads, const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+/// Work of loads, springs and contact on the way, their forces, targets and obstacles standing still as at its end.
+double work(const Loads& loads, const BodyState& begin, const BodyState& end) {
+  const Eigen::Matrix3Xd &from = begin.positions, &to = end.positions;
   double sum = dead_work(loads, from, to);
+  if (loads.contact) {
+    ContactStep contact(*loads.contact, begin, end.time);
+    contact.set_state(to);
+    sum += contact.energy(from) - contact.energy(to);
+  }
   for (const AnchorSpring& spring : loads.springs)
     sum += 0.5 * spring.stiffness *
            ((held_point(spring, from) - spring.target).squaredNorm() -
@@ -99,7 +106,7 @@ GuardFinding StepJudge::judge(const Loads& loads, const BodyState& from, const B
   if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
   Worth next = worth(to, 0);
   if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-  const double gain = next.energy() - before.energy() - work(loads, from.positions, to.positions) -
+  const double gain = next.energy() - before.energy() - work(loads, from, to) -
                       led_work(integrator_->system(), loads, from, to) + given;
   next.surplus = std::max(0.0, before.surplus + gain);
   const double present = std::abs(next.energy());

@@ -24,9 +24,9 @@ class StepJudge {
   explicit StepJudge(Integrator& integrator);
 
   [[nodiscard]] Worth worth(const BodyState& state, double surplus);
-  /// Takes `before`, which is that of `from`, on to `to`, unless something is found. The work is that of `loads`,
-  /// their forces and targets standing still, and of what leads points; `given` [J] is what among it is to be
-  /// counted as made of nothing.
+  /// Takes `before`, of the state `from`, on to `to`, unless something is found. The work is that of `loads`,
+  /// their forces, targets and obstacles standing still where they are at the end, and of what leads points;
+  /// `given` [J] is what among it is to be counted as made of nothing.
   [[nodiscard]] GuardFinding judge(const Loads& loads, const BodyState& from, const BodyState& to, double given,
                                    Worth& before);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fem/contact/contact.h"
+
 namespace argil::fem {
 
 namespace {
@@ -41,12 +43,23 @@ void step_as_a_whole(const System& system, const Loads& loads, BodyState& state,
     force += spring.stiffness * (spring.target - held_point(spring, state.positions));
     stiffness += spring.stiffness;
   }
+  std::vector<ContactGrip> grips;
+  if (loads.contact) {
+    ContactStep contact(*loads.contact, state, state.time + h);
+    contact.set_state(state.positions);
+    for (const Touch& touch : contact.touches()) {
+      force += touch.force();
+      stiffness += touch.stiffness;
+    }
+    grips = contact.grips();
+  }
   const double inertia = sum_of(system.mass) + h * sum_of(system.damping) + h * h * stiffness;
   const Eigen::Vector3d velocity = (momentum(system, state.velocities) + h * force) / inertia;
   BodyState next;
   next.positions = state.positions.colwise() + h * velocity;
   next.velocities = velocity.replicate(1, state.positions.cols());
   next.time = state.time + h;
+  next.grips = std::move(grips);
   state = std::move(next);
 }
 

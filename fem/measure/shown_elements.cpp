@@ -91,27 +91,37 @@ Eigen::Matrix3Xd ShownElements::with_apexes(const Eigen::Matrix3Xd& vertices) co
   return nodes;
 }
 
-Eigen::VectorXd ShownElements::recovered(const Eigen::Matrix3Xd& vertices, const OfBlock& point_values) const {
+bool ShownElements::take_flow(const PlasticFlow& flow) {
+  if (!fits(flow, blocks_)) return false;
+  flowed_blocks_ = blocks_;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (std::size_t i = 0; i < flow.inverse[b].size(); ++i)
+      flowed_blocks_[b].inverse_rest_jacobians[i] = blocks_[b].inverse_rest_jacobians[i] * flow.inverse[b][i];
+  return true;
+}
+
+Eigen::VectorXd ShownElements::recovered(const std::vector<ElementBlock>& blocks, const Eigen::Matrix3Xd& vertices,
+                                         const OfBlock& point_values) const {
   const Eigen::Matrix3Xd nodes = with_apexes(vertices);
   std::vector<Eigen::VectorXd> values;
-  for (const ElementBlock& block : blocks_) values.push_back(point_values(block, nodes));
-  return recover_at_nodes(blocks_, values, static_cast<std::size_t>(nodes.cols())).head(vertex_count_);
+  for (const ElementBlock& block : blocks) values.push_back(point_values(block, nodes));
+  return recover_at_nodes(blocks, values, static_cast<std::size_t>(nodes.cols())).head(vertex_count_);
 }
 
 Eigen::VectorXd ShownElements::equivalent_strain(const Eigen::Matrix3Xd& vertices) const {
-  return recovered(vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(blocks_, vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     return fem::equivalent_strain(block, nodes);
   });
 }
 
 Eigen::VectorXd ShownElements::von_mises_stress(const Eigen::Matrix3Xd& vertices, StressLaw law) const {
-  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(stressed_blocks(), vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     return fem::von_mises_stress(block, nodes, law);
   });
 }
 
 Eigen::VectorXd ShownElements::principal_strain(const Eigen::Matrix3Xd& vertices, int order) const {
-  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(blocks_, vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     const Eigen::Matrix3Xd stretches = principal_stretches(block, nodes);
     Eigen::VectorXd result(stretches.cols());
     for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = stretches(order, i) - 1;
@@ -120,7 +130,7 @@ Eigen::VectorXd ShownElements::principal_strain(const Eigen::Matrix3Xd& vertices
 }
 
 Eigen::VectorXd ShownElements::principal_stress(const Eigen::Matrix3Xd& vertices, int order, StressLaw law) const {
-  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(stressed_blocks(), vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     const Eigen::Matrix3Xd stresses = principal_stresses(block, nodes, law ? law : stress_law("corotational"));
     Eigen::VectorXd result(stresses.cols());
     for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = ordered(stresses.col(i), order);
@@ -129,7 +139,7 @@ Eigen::VectorXd ShownElements::principal_stress(const Eigen::Matrix3Xd& vertices
 }
 
 Eigen::VectorXd ShownElements::pressure(const Eigen::Matrix3Xd& vertices, StressLaw law) const {
-  return recovered(vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(stressed_blocks(), vertices, [&](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     const Eigen::Matrix3Xd stresses = principal_stresses(block, nodes, law ? law : stress_law("corotational"));
     Eigen::VectorXd result(stresses.cols());
     for (Eigen::Index i = 0; i < result.size(); ++i)
@@ -139,7 +149,7 @@ Eigen::VectorXd ShownElements::pressure(const Eigen::Matrix3Xd& vertices, Stress
 }
 
 Eigen::VectorXd ShownElements::distortion(const Eigen::Matrix3Xd& vertices) const {
-  return recovered(vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
+  return recovered(blocks_, vertices, [](const ElementBlock& block, const Eigen::Matrix3Xd& nodes) {
     const Eigen::Matrix3Xd stretches = principal_stretches(block, nodes);
     Eigen::VectorXd result(stretches.cols());
     for (Eigen::Index i = 0; i < result.size(); ++i)

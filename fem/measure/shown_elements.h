@@ -11,6 +11,7 @@
 #include "fem/discretization.h"
 #include "fem/element_block.h"
 #include "fem/measure/stress.h"
+#include "fem/models/plastic_flow.h"
 
 namespace argil::fem {
 
@@ -18,6 +19,10 @@ class ShownElements {
  public:
   /// `rest_vertices`: 3 x vertices of the finest level, as shown at rest.
   ShownElements(const subdiv::Solid& finest, const Eigen::Matrix3Xd& rest_vertices, const NodalFields& fields);
+
+  /// Stresses from here on are those of a body that has flowed. False, and nothing changes, if the flow is of other
+  /// points: where the space integrates other elements than these.
+  [[nodiscard]] bool take_flow(const PlasticFlow& flow);
 
   /// Per vertex, from the vertices as shown now. Stresses [Pa] are by the corotational law without `law`.
   [[nodiscard]] Eigen::VectorXd equivalent_strain(const Eigen::Matrix3Xd& vertices) const;
@@ -33,10 +38,16 @@ class ShownElements {
 
  private:
   using OfBlock = std::function<Eigen::VectorXd(const ElementBlock&, const Eigen::Matrix3Xd& nodes)>;
-  [[nodiscard]] Eigen::VectorXd recovered(const Eigen::Matrix3Xd& vertices, const OfBlock& point_values) const;
+  [[nodiscard]] Eigen::VectorXd recovered(const std::vector<ElementBlock>& blocks, const Eigen::Matrix3Xd& vertices,
+                                          const OfBlock& point_values) const;
   [[nodiscard]] Eigen::Matrix3Xd with_apexes(const Eigen::Matrix3Xd& vertices) const;
 
+  const std::vector<ElementBlock>& stressed_blocks() const {
+    return flowed_blocks_.empty() ? blocks_ : flowed_blocks_;
+  }
+
   std::vector<ElementBlock> blocks_;
+  std::vector<ElementBlock> flowed_blocks_;                // with the rest Jacobians of the flow; empty without
   std::vector<std::vector<subdiv::VertexId>> apex_cells_;  // vertices whose mean an apex is
   Eigen::Index vertex_count_ = 0;
 };

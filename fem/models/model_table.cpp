@@ -42,7 +42,8 @@ std::span<const ModelKind> model_table() {
       {.name = "corotational",
        .summary = "the default, linear in the strain that is left when the rotation is taken off",
        .make = make_law<Law::corotational>,
-       .has_b_bar = true},
+       .has_b_bar = true,
+       .can_flow = true},
       {.name = "linear",
        .summary = "small strain in fixed axes, wrong under rotation",
        .make = make_linear_as,
@@ -51,12 +52,14 @@ std::span<const ModelKind> model_table() {
       {.name = "stable_neo_hookean",
        .summary = "resists compression without limit and recovers from inversion; needs the line search",
        .make = make_law<Law::stable_neo_hookean>,
-       .has_b_bar = true},
+       .has_b_bar = true,
+       .can_flow = true},
       {.name = "st_venant_kirchhoff",
        .summary =
            "linear in the Green strain, as in reference solutions; turns soft and collapses under compression",
        .make = make_law<Law::st_venant_kirchhoff>,
-       .has_b_bar = true},
+       .has_b_bar = true,
+       .can_flow = true},
       {.name = "warped_stiffness",
        .summary =
            "one rotation an element about its linear stiffness; no energy, and ghost torque where it is distorted",
@@ -106,7 +109,8 @@ std::span<const ModelKind> model_table() {
            "the law of Abaqus and CalculiX (C10 = mu/2, D1 = 2/K), continued below a tenth of the rest volume "
            "so that flat and inside-out cells have a finite energy and come back; needs the line search",
        .make = make_law<Law::neo_hookean>,
-       .has_b_bar = true},
+       .has_b_bar = true,
+       .can_flow = true},
   };
   return table;
 }

@@ -27,6 +27,7 @@ struct ModelKind {
   bool has_b_bar = false, has_incompatible_modes = false;
   bool takes_prestress = true;
   std::optional<DiagonalSprings> springs{};  // of a model that is made of springs: which diagonals its cubes have
+  bool can_flow = false;                     // plastic_flow.h
   bool of_published_method = false;          // with the integrator of that mark it makes up papers/004's method
 };
 

@@ -216,7 +216,8 @@ RestOperator reduce_elements(const subdiv::Stencils& rows, const ElementSource& 
 
 RestOperator rest_operator(const System& system, bool with_stiffness) {
   assert(system.rest_nodes != nullptr);
-  const auto tangent = system.model->tangent(*system.rest_nodes, Projection::none);
+  const ForceModel& model = system.rest_model ? *system.rest_model : *system.model;
+  const auto tangent = model.tangent(*system.rest_nodes, Projection::none);
   return reduce_elements(
       *system.rows, [&](const Tangent::Visit& visit) { tangent->element_tangents(visit); }, with_stiffness);
 }

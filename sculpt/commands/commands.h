@@ -28,5 +28,6 @@ std::vector<Command> output_commands();      // measure expect save
 std::vector<Command> recording_commands();   // record
 std::vector<Command> render_commands();      // render
 std::vector<Command> sampling_commands();    // sample plot
+std::vector<Command> obstacle_commands();    // obstacle plasticity
 
 }  // namespace argil::sculpt

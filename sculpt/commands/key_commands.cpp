@@ -10,6 +10,7 @@
 #include "sculpt/commands/named_forces.h"
 #include "sculpt/document_loads.h"
 #include "sculpt/near_names.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
@@ -252,6 +253,43 @@ void key_pin(Session& session, const Arguments& arguments, State& next) {
   next.pins = pins;
 }
 
+void key_obstacle(Session& session, const Arguments& arguments, State& next) {
+  if (!arguments.has("name"))
+    throw Error(ErrorCode::bad_input, "which obstacle? As in `key obstacle floor move 0 0 0.1 at 2`");
+  refuse(arguments, {"value"}, "an obstacle moves: `move X Y Z`, `rotate ANGLE axis X Y Z`");
+  const std::string& name = arguments.word("name");
+  const NamedObstacle* known = find_obstacle(next, name);
+  if (!known) {
+    std::vector<std::string> names;
+    if (next.obstacles)
+      for (const NamedObstacle& obstacle : *next.obstacles) names.push_back(obstacle.name);
+    throw Error(ErrorCode::not_found,
+                fmt::format("there is no obstacle named '{}'{}; `obstacle {} plane` makes one", name,
+                            near_names_hint(name, names), io::quote(name)));
+  }
+  NamedObstacle obstacle = *known;
+  const double now = next.motion->time;
+  const std::string what = fmt::format("the obstacle '{}'", name);
+  if (arguments.has("remove")) {
+    const fem::Obstacle there = standing_obstacle(obstacle, now);
+    remove_keys(obstacle.track, arguments, what);
+    if (obstacle.track.empty()) obstacle.body = there;
+  } else {
+    if (!obstacle.track.empty() && arguments.has("about"))
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("what {} turns about goes with its first key; `key obstacle {} remove` and begin again", what,
+                      io::quote(name)));
+    if (obstacle.track.empty()) obstacle.pivot = arguments.vector("about", obstacle.body.position);
+    add_keys(obstacle.track, new_keys(arguments, motion_value(arguments), 6, now), now, Eigen::VectorXd::Zero(6),
+             what, session);
+  }
+  auto obstacles = std::make_shared<std::vector<NamedObstacle>>(*next.obstacles);
+  for (NamedObstacle& other : *obstacles)
+    if (other.name == name) other = obstacle;
+  next.obstacles = obstacles;
+}
+
 void key(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
@@ -260,8 +298,10 @@ void key(Session& session, const Arguments& arguments) {
     key_gravity(session, arguments, next);
   else if (what == "force")
     key_force(session, arguments, next);
-  else
+  else if (what == "pin")
     key_pin(session, arguments, next);
+  else
+    key_obstacle(session, arguments, next);
   session.change(std::move(next));
 }
 
@@ -300,6 +340,11 @@ void list_keys(Session& session, const Arguments&) {
                      count_of(motion.members.ids.size(), motion.members.type), motion.pivot.x(), motion.pivot.y(),
                      motion.pivot.z()),
          motion.track);
+  if (state.obstacles)
+    for (const NamedObstacle& obstacle : *state.obstacles)
+      list(fmt::format("obstacle {} [m, degrees], about {:g} {:g} {:g}", io::quote(obstacle.name),
+                       obstacle.pivot.x(), obstacle.pivot.y(), obstacle.pivot.z()),
+           obstacle.track);
   if (!any) session.print("nothing has keys; `key gravity 0 0 -9.81 at 0.5` makes one");
 }
 
@@ -313,20 +358,23 @@ std::vector<Command> key_commands() {
   value.positional = true;
   return {
       {.name = "key",
-       .summary =
-           "Says what gravity, a force or a pin is at a time; in between it goes from key to key, before the "
-           "first and after the last it stays. Pins move as one rigid body by the differences of their keys, "
-           "from where they stand. A first key that lies ahead makes another, of what is now.",
+       .summary = "Says what gravity, a force, a pin or an obstacle is at a time; in between it goes from key to "
+                  "key, before the "
+                  "first and after the last it stays. Pins move as one rigid body by the differences of their "
+                  "keys, from where "
+                  "they stand, obstacles from where they were put. A first key that lies ahead makes another, of "
+                  "what is now.",
        .parameters =
            {{.name = "what",
              .type = ArgumentType::word,
              .help = "what is keyed",
              .positional = true,
              .required = true,
-             .choices = {"gravity", "force", "pin"}},
+             .choices = {"gravity", "force", "pin", "obstacle"}},
             {.name = "name",
              .type = ArgumentType::text,
-             .help = "of the force (`force … as NAME`), or of a set of pinned elements (`select … as NAME`)",
+             .help = "of the force (`force … as NAME`), of a set of pinned elements (`select … as NAME`), or of "
+                     "the obstacle",
              .positional = true},
             value,
             {.name = "at",
@@ -334,18 +382,20 @@ std::vector<Command> key_commands() {
              .unit = "s",
              .low = 0,
              .high = 1e9},
-            vector("move", "of a pin: how far it has come", "m", 1e9),
+            vector("move", "of a pin or obstacle: how far it has come", "m", 1e9),
             {.name = "rotate",
-             .help = "of a pin: how far it has turned; more than 360 goes round more than once",
+             .help = "of a pin or obstacle: how far it has turned; more than 360 goes round more than once",
              .unit = "degrees",
              .low = -36e5,
              .high = 36e5},
             vector("axis", "of the turn; else 0 0 1", "", 1e9),
-            vector("about", "with the first key: the point that it turns about; else the middle of the pins", "m",
-                   1e9),
+            vector("about",
+                   "with the first key: the point that it turns about; else the middle of the pins, or where the "
+                   "obstacle stands",
+                   "m", 1e9),
             {.name = "path",
              .help = "several keys at once: the time of each, and the value of a force or gravity or the way "
-                     "of a pin",
+                     "of a pin or obstacle",
              .unit = "s N N N, s m m m",
              .count = 4,
              .low = -1e12,
@@ -364,7 +414,7 @@ std::vector<Command> key_commands() {
                   "select vertices as end where x > 0.39"},
        .run = key},
       {.name = "keys",
-       .summary = "Lists the keys of gravity, forces and pins over time.",
+       .summary = "Lists the keys of gravity, forces, pins and obstacles over time.",
        .parameters = {},
        .example = "keys",
        .before = {"new box 2 2 2", "key gravity path 0 0 0 0 1 0 0 -9.81 interpolation linear"},

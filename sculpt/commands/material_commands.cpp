@@ -96,6 +96,7 @@ void set_model(Session& session, const Arguments& arguments) {
     for (const fem::Formulation f : fem::k_formulations)
       if (arguments.word("formulation") == fem::word(f)) next.model.formulation = f;
   fem::check_model(next.model);
+  if (next.plasticity.on || next.flow) fem::check_flow(next.model);
   session.change(std::move(next));
 }
 

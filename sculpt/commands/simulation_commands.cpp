@@ -6,6 +6,7 @@
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
 #include "sculpt/document_loads.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/region.h"
 #include "sculpt/simulation.h"
 #include "subdiv/error.h"
@@ -65,8 +66,10 @@ void solve(Session& session, const Arguments&) {
   fem::StepOptions options;
   options.linear_tolerance = 1e-9;
   options.newton_tolerance = 1e-8;
+  fem::Loads loads = document.loads();
+  loads.contact = contact_at(document, motion->time);
   const fem::StepReport report =
-      document.integrator().solve_static(document.loads(), *motion, options, session.options().clock);
+      document.integrator().solve_static(loads, *motion, options, session.options().clock);
   session.print(fmt::format("equilibrium in {} Newton and {} linear iterations", report.newton_iterations,
                             report.linear_iterations));
   next.motion = motion;
@@ -90,7 +93,9 @@ void commit(Session& session, const Arguments&) {
   motion->positions = next.motion->positions;
   motion->velocities = Eigen::Matrix3Xd::Zero(3, motion->positions.cols());
   motion->time = next.motion->time;
+  motion->grips = next.motion->grips;
   next.motion = motion;
+  next.flow = nullptr;
   next.guard = {};
   document.assign(next);
   check_discretization(session);
@@ -183,7 +188,8 @@ std::vector<Command> simulation_commands() {
                   "force 0 0 -1 where z > 0.09"},
        .run = solve},
       {.name = "commit",
-       .summary = "Makes the present shape the rest shape; velocities are zero then, pins and loads stay.",
+       .summary = "Makes the present shape the rest shape; velocities are zero then and what has "
+                  "flowed is forgotten, pins, loads and obstacles stay.",
        .parameters = {},
        .example = "commit",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1", "levels 1", "pin where x < 0.01", "force 0 0 -1 where z > 0.09",

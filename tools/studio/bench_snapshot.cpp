@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sculpt/measures.h"
+#include "sculpt/obstacle_picture.h"
 #include "sculpt/scene.h"
 #include "sculpt/shown_fields.h"
 #include "subdiv/error.h"
@@ -79,6 +80,8 @@ void Bench::move_scene(Snapshot& next) {
   for (std::size_t i = 0; i < scene->surface.positions.size(); ++i)
     scene->surface.positions[i] =
         now.col(static_cast<Eigen::Index>(scene->surface.vertex_from_surface[i])).cast<float>();
+  scene->obstacles.clear();
+  sculpt::add_obstacles(*scene, document);
   if (shown_.cage) {
     scene->cage_lines.clear();
     scene->cage_points.clear();

@@ -27,6 +27,7 @@ struct Theme {
   Colour overlay, axis_u, axis_v, axis_w, side, rest_side;
   Colour edge_spring, face_spring, inner_spring, material_line;
   float shadow;  // opacity
+  Colour obstacle;
 };
 
 inline constexpr Theme k_dark_theme{colour(0x2B2F36),        colour(0x171A1E),
@@ -41,7 +42,8 @@ inline constexpr Theme k_dark_theme{colour(0x2B2F36),        colour(0x171A1E),
                                     colour(0x5AA2F5),        colour(0xF0A93C),
                                     colour(0x5BD0CB),        colour(0xF2EDE4),
                                     colour(0x4FB6E8),        colour(0xF0A93C),
-                                    colour(0xFF7AB8),        0.85F};
+                                    colour(0xFF7AB8),        0.85F,
+                                    colour(0x9AA3AD, 0.46F)};
 inline constexpr Theme k_light_theme{colour(0xF7F8FA),        colour(0xDCE0E5),
                                      colour(0x1E2126),        colour(0x5A616B),
                                      colour(0xFFFFFF, 0.85F), colour(0x3F6FA6, 0.65F),
@@ -54,7 +56,8 @@ inline constexpr Theme k_light_theme{colour(0xF7F8FA),        colour(0xDCE0E5),
                                      colour(0x2166C4),        colour(0xC9760A),
                                      colour(0x0B807B),        colour(0x2B2F36),
                                      colour(0x1F7FB8),        colour(0xC9760A),
-                                     colour(0xB8246F),        0.40F};
+                                     colour(0xB8246F),        0.40F,
+                                     colour(0x7D8791, 0.46F)};
 
 constexpr Colour line_colour(sculpt::LineLook look, const Theme& theme) {
   switch (look) {

@@ -14,6 +14,7 @@ namespace argil::view {
 
 namespace {
 
+constexpr double k_framed_obstacle = 2;       // radii of the body
 constexpr int k_largest = 4096;               // width or height of a picture
 constexpr int k_samples_at_once = 4'000'000;  // a picture is drawn in strips of about so many samples
 
@@ -72,6 +73,15 @@ std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   for (std::size_t i = 0; i < scene.lines.size(); ++i)
     for (const auto& ends : scene.lines[i].lines)
       for (const Eigen::Vector3f& end : ends) add(end, "line of set", i);
+  // Obstacles that are much larger than the body would leave little of it to see.
+  const std::size_t framed = all.size();
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    for (const Eigen::Vector3f& position : scene.obstacles[i].surface.positions) add(position, "obstacle", i);
+    const std::vector<Eigen::Vector3f> body(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(framed));
+    if (scene.obstacles[i].is_ground ||
+        place_of(scene.obstacles[i].surface.positions).radius > k_framed_obstacle * place_of(body).radius)
+      all.resize(all.size() - scene.obstacles[i].surface.positions.size());
+  }
   if (scene.volume) check_volume(*scene.volume, scene.legend.has_value());
   for (std::size_t i = 0; i < scene.labels.size(); ++i) add(scene.labels[i].at, "label", i);
   for (std::size_t i = 0; i < scene.surface.values.size(); ++i)

@@ -63,6 +63,7 @@ ScenePainter::ScenePainter(const Gl& gl)
       mark_program_(gl, shaders::k_mark_vertex, shaders::k_mark_fragment),
       arrow_program_(gl, shaders::k_arrow_vertex, shaders::k_arrow_fragment),
       image_program_(gl, shaders::k_whole_vertex, shaders::k_image_fragment),
+      obstacle_program_(gl, shaders::k_surface_vertex, shaders::k_obstacle_fragment),
       shadow_(gl),
       nothing_(gl),
       surface_(gl),
@@ -129,6 +130,17 @@ void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place,
     for (const auto& ends : set.lines) lines.push_back({place(ends[0]), place(ends[1])});
     line_sets_.push_back({set.look, std::make_unique<VertexArray>(*gl_)});
     line_sets_.back().lines->set(lines, k_line_attributes, 1);
+  }
+
+  obstacles_.clear();
+  for (const sculpt::SceneObstacle& obstacle : scene.obstacles) {
+    std::vector<Eigen::Vector3f> there;
+    for (const Eigen::Vector3f& position : obstacle.surface.positions) there.push_back(place(position));
+    const SurfaceMesh mesh = surface_mesh(obstacle.surface, there);
+    if (mesh.triangles.empty()) continue;
+    const SurfaceVertex& first = mesh.vertices.front();
+    obstacles_.push_back({obstacle.is_ground, first.position, first.normal, std::make_unique<VertexArray>(*gl_)});
+    obstacles_.back().surface->set(mesh.vertices, k_surface_attributes, 0, mesh.triangles);
   }
 
   const auto placed = [&](const std::vector<Eigen::Vector3f>& all) {
@@ -203,6 +215,24 @@ float ScenePainter::use_in_pixels(const Program& program, const Camera& camera, 
   gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
                0.5F * factor * static_cast<float>(sampling.height));
   return factor * sampling.pixel;
+}
+
+void ScenePainter::draw_obstacles(const Camera& camera, bool beneath) const {
+  const Gl& gl = *gl_;
+  obstacle_program_.use();
+  set_colour(gl, obstacle_program_.at("tint"), theme_->obstacle);
+  for (const Obstacle& obstacle : obstacles_) {
+    const bool faces = obstacle.is_ground && obstacle.normal.dot(camera.eye - obstacle.at) > 0;
+    if (faces != beneath) continue;
+    gl.UniformMatrix4fv(obstacle_program_.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
+    gl.UniformMatrix3fv(obstacle_program_.at("view_from_world"), 1, GL_FALSE, camera.view_from_world.data());
+    gl.Uniform3f(obstacle_program_.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
+    obstacle.surface->bind();
+    // They are convex: what faces the eye is what is nearest to it.
+    if (!obstacle.is_ground) gl.Enable(GL_CULL_FACE);
+    gl.DrawElements(GL_TRIANGLES, obstacle.surface->count(), GL_UNSIGNED_INT, nullptr);
+    gl.Disable(GL_CULL_FACE);
+  }
 }
 
 void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
@@ -289,6 +319,10 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   gl.Uniform1f(background_program_.at("picture_height"), static_cast<float>(sampling.height));
   nothing_.bind();
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl.Enable(GL_BLEND);
+  draw_obstacles(camera, true);
+  gl.Disable(GL_BLEND);
   if (has_shadow_) shadow_.paint(camera, theme.shadow);
 
   if (volume_) draw_volume(sampling, x, y);
@@ -343,6 +377,8 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);
+  hide_behind_surface(draws_surface_);
+  draw_obstacles(camera, false);
   gl.Disable(GL_BLEND);
   gl.DepthMask(GL_TRUE);
 }

@@ -60,6 +60,8 @@ class ScenePainter {
                   const Colour& tint, float full_length) const;
   void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
                   const Colour& tint, const Colour& ring, float opacity) const;
+  /// Those drawn beneath the body, or above it.
+  void draw_obstacles(const Camera& camera, bool beneath) const;
   void draw_volume(const Sampling& sampling, int x, int y) const;
   void draw_line_sets(const Camera& camera, const Sampling& sampling, float opacity) const;
   void draw_arrows(const Camera& camera, const Sampling& sampling) const;
@@ -67,7 +69,7 @@ class ScenePainter {
 
   const Gl* gl_;
   Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
-      arrow_program_, image_program_;
+      arrow_program_, image_program_, obstacle_program_;
   GroundShadow shadow_;
   VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, pins_;
   struct LineSet {
@@ -75,6 +77,12 @@ class ScenePainter {
     std::unique_ptr<VertexArray> lines;
   };
   std::vector<LineSet> line_sets_;
+  struct Obstacle {
+    bool is_ground;
+    Eigen::Vector3f at, normal;  // of a ground
+    std::unique_ptr<VertexArray> surface;
+  };
+  std::vector<Obstacle> obstacles_;
   std::unique_ptr<Image> volume_;
   mutable VertexArray arrows_;  // their thickness depends on the camera
   std::vector<sculpt::SceneArrow> arrow_ends_;

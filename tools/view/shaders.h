@@ -138,6 +138,24 @@ void main() {
   colour = vec4(with_brushes(c), 1.0);
 })";
 
+/// Matte and translucent, a little denser where it turns away; `value` is an opacity.
+inline constexpr const char* k_obstacle_fragment = R"(
+precision highp float;
+in vec3 view_normal, to_eye, to_lamp;
+in float value, openness;
+flat in uint cell;
+flat in uint cut;
+in vec3 place;
+uniform vec4 tint;
+out vec4 colour;
+void main() {
+  vec3 n = normalize(view_normal), v = normalize(to_eye);
+  if (dot(n, v) < 0.0) n = -n;
+  float lit = 0.5 + 0.5 * dot(n, normalize(to_lamp));
+  float rim = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 3.0);
+  colour = vec4(tint.rgb * mix(0.55, 1.12, lit), value * mix(tint.a, min(1.0, tint.a + 0.3), rim));
+})";
+
 inline constexpr const char* k_id_fragment = R"(
 precision highp float;
 in vec3 view_normal, to_eye, to_lamp;

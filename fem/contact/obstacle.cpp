@@ -1,0 +1,92 @@
+#include "fem/contact/obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace argil::fem {
+
+namespace {
+
+/// Distance from a middle, with a direction where there is none.
+SignedDistance from_middle(const Eigen::Vector3d& offset, double radius, const Eigen::Vector3d& otherwise) {
+  const double length = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+  return {length - radius, length > 0 ? Eigen::Vector3d(offset / length) : otherwise};
+}
+
+SignedDistance from_box(const Eigen::Vector3d& half, const Eigen::Vector3d& own) {
+  Eigen::Vector3d over, outside;
+  for (int i = 0; i < 3; ++i) {
+    over[i] = std::abs(own[i]) - half[i];
+    outside[i] = std::copysign(std::max(over[i], 0.0), own[i]);
+  }
+  if (over[0] > 0 || over[1] > 0 || over[2] > 0) return from_middle(outside, 0, Eigen::Vector3d::UnitZ());
+  int nearest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (over[i] > over[nearest]) nearest = i;
+  SignedDistance result{over[nearest], Eigen::Vector3d::Zero()};
+  result.normal[nearest] = std::copysign(1.0, own[nearest]);
+  return result;
+}
+
+}  // namespace
+
+std::string_view word(ObstacleShape shape) {
+  switch (shape) {
+    case ObstacleShape::plane:
+      return "plane";
+    case ObstacleShape::sphere:
+      return "sphere";
+    case ObstacleShape::box:
+      return "box";
+    case ObstacleShape::capsule:
+      return "capsule";
+  }
+  return "";
+}
+
+ObstaclePose pose_at(const Obstacle& obstacle, double time) {
+  const double passed = time - obstacle.time;
+  ObstaclePose pose{obstacle.position + passed * obstacle.velocity, obstacle.orientation.toRotationMatrix()};
+  const Eigen::Vector3d& w = obstacle.angular_velocity;
+  const double rate = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  if (rate > 0) pose.rotation = Eigen::AngleAxisd(rate * passed, w / rate).toRotationMatrix() * pose.rotation;
+  return pose;
+}
+
+Eigen::Vector3d velocity_at(const Obstacle& obstacle, double time, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d arm = point - (obstacle.position + (time - obstacle.time) * obstacle.velocity);
+  return obstacle.velocity + obstacle.angular_velocity.cross(arm);
+}
+
+SignedDistance signed_distance(const Obstacle& obstacle, const Eigen::Vector3d& own) {
+  switch (obstacle.shape) {
+    case ObstacleShape::plane:
+      return {own.z(), Eigen::Vector3d::UnitZ()};
+    case ObstacleShape::sphere:
+      return from_middle(own, obstacle.size[0], Eigen::Vector3d::UnitZ());
+    case ObstacleShape::box:
+      return from_box(obstacle.size, own);
+    case ObstacleShape::capsule: {
+      const double half = obstacle.size[1];
+      const Eigen::Vector3d offset(own.x(), own.y(), own.z() - std::clamp(own.z(), -half, half));
+      return from_middle(offset, obstacle.size[0], Eigen::Vector3d::UnitX());
+    }
+  }
+  return {std::numeric_limits<double>::infinity(), Eigen::Vector3d::UnitZ()};
+}
+
+double largest_depth(const Obstacle& obstacle) {
+  switch (obstacle.shape) {
+    case ObstacleShape::plane:
+      return std::numeric_limits<double>::infinity();
+    case ObstacleShape::sphere:
+    case ObstacleShape::capsule:
+      return obstacle.size[0];
+    case ObstacleShape::box:
+      return std::min({obstacle.size[0], obstacle.size[1], obstacle.size[2]});
+  }
+  return 0;
+}
+
+}  // namespace argil::fem
