@@ -121,5 +121,23 @@ TEST_F(Animated, RefusesTooManyFramesAndNumbersOutOfRange) {
   EXPECT_EQ(animation.frames(), 5U);
 }
 
+TEST_F(Animated, NeverReplacesAFileByAPartOfOne) {
+  write_file(path_, "old");
+  EXPECT_THROW(write_file(path_,
+                          [](const std::function<void(std::string_view)>& write) {
+                            write("a part");
+                            throw Error(ErrorCode::bad_input, "the rest is lost");
+                          }),
+               Error);
+  EXPECT_EQ(read_file(path_), "old");
+  write_file(path_, [](const std::function<void(std::string_view)>& write) {
+    write("a part");
+    write("");
+    write(" and the rest");
+  });
+  EXPECT_EQ(read_file(path_), "a part and the rest");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
+}
+
 }  // namespace
 }  // namespace argil::io

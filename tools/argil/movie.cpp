@@ -89,6 +89,7 @@ void film_run(const MovieArguments& arguments, const std::filesystem::path& out,
     if (due == 0) return;
     if (!request) request = read_request(*running, arguments);
     request->options.contact_shadow = false;  // it would lie under the body wherever that flies
+    request->picture.tool_force.reset();      // that of a stroke which is over
     const sculpt::Picture picture = sculpt::make_picture(renderer, document, *request, framed);
     for (long i = 0; i < due; ++i) {
       film.add(picture);
