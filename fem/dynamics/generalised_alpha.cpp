@@ -49,10 +49,14 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   if (goal.viscous) goal.constant_force -= viscous_product(past);
 
   Eigen::Matrix3Xd q = state.positions + (1 - alpha_f) * h * velocities;
-  // Newmark's update of a position that is given would swing: led points have the mean acceleration of the step.
+  // Newmark's update of a position that is given would swing: the acceleration of led points at the point of
+  // balance is drawn on from the mean ones of the last step, which is what they keep, and of this.
   const Eigen::Matrix3Xd led_q = (1 - alpha_f) * led.positions + alpha_f * led_columns(loads.led, state.positions);
+  const Eigen::Matrix3Xd led_balance =
+      led.accelerations + (0.5 - alpha_f) * (led.accelerations - led_accelerations);
+  const Eigen::Matrix3Xd led_end = (led_balance - alpha_m * led_accelerations) / (1 - alpha_m);
   set_led_columns(loads.led, led_q, q);
-  set_led_columns(loads.led, led_q - ((1 - alpha_f) * beta * h * h) * led.accelerations, goal.anchor);
+  set_led_columns(loads.led, led_q - ((1 - alpha_f) * beta * h * h) * led_end, goal.anchor);
   minimise(goal, *preconditioner, newton_options(options), q, report, clock);
 
   const Eigen::Matrix3Xd next_accelerations = (q - goal.anchor) / ((1 - alpha_f) * beta * h * h);
@@ -67,6 +71,7 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   advance(state, std::move(next_positions), std::move(next_velocities), h);
   state.grips = std::move(grips);
   state.accelerations = next_accelerations;
+  set_led_columns(loads.led, led.accelerations, state.accelerations);
   return report;
 }
 
