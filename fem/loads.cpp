@@ -147,6 +147,36 @@ Eigen::Matrix3Xd spread_force(const Discretization& discretization, const Surfac
   return traction_forces(discretization, patch, nodes, force / total);
 }
 
+Eigen::Matrix3Xd body_forces(const Discretization& discretization,
+                             const std::vector<std::vector<std::uint8_t>>& marks, const Eigen::Vector3d& force) {
+  // ∫ N over the marked elements, by node: their sum is the volume.
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(discretization.rest_nodes.cols());
+  double total = 0;
+  for (std::size_t b = 0; b < discretization.blocks.size(); ++b) {
+    const ElementBlock& block = discretization.blocks[b];
+    const auto n = static_cast<std::size_t>(block.kind->node_count);
+    for (std::size_t e = 0; e < block.element_count(); ++e) {
+      if (!marks[b][e]) continue;
+      for (int q = 0; q < block.kind->point_count; ++q) {
+        const double volume = block.volumes[block.point_index(e, q)];
+        const double* shapes = block.kind->shapes.data() + static_cast<std::size_t>(q) * n;
+        for (std::size_t a = 0; a < n; ++a) shares[block.nodes[e * n + a]] += volume * shapes[a];
+        total += volume;
+      }
+    }
+  }
+  if (!(total > 0))
+    throw Error(
+        ErrorCode::bad_input,
+        "A force spread through cells needs cells with volume, but those selected have none. Select at least "
+        "one cell.");
+  Eigen::Matrix3Xd result = no_forces(discretization);
+  for (Eigen::Index node = 0; node < shares.size(); ++node)
+    if (shares[node] != 0)
+      scatter(discretization.nodes.rows, static_cast<std::uint32_t>(node), (shares[node] / total) * force, result);
+  return result;
+}
+
 Eigen::Vector3d position(const PointStencil& point, const Eigen::Matrix3Xd& control_points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t e = 0; e < point.control_points.size(); ++e)

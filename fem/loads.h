@@ -43,6 +43,12 @@ struct SurfacePatch {
 [[nodiscard]] Eigen::Matrix3Xd spread_force(const Discretization& discretization, const SurfacePatch& patch,
                                             const Eigen::Matrix3Xd& nodes, const Eigen::Vector3d& force);
 
+/// `force` [N] in total, spread by volume over elements: marks[block][element] is 1 for those. @throws Error
+/// (bad_input) if they have no volume. Cost O(quadrature points).
+[[nodiscard]] Eigen::Matrix3Xd body_forces(const Discretization& discretization,
+                                           const std::vector<std::vector<std::uint8_t>>& marks,
+                                           const Eigen::Vector3d& force);
+
 /// A point of the body as an affine combination of control points (weights sum to one), ascending.
 struct PointStencil {
   std::vector<std::uint32_t> control_points;

@@ -24,6 +24,14 @@ struct AnchorSpring {
   double stiffness = 0;                              // [N/m]
 };
 
+/// Fixed control points that are led: where they stand at `time`, and how fast they are there. A step that ends
+/// earlier takes them a part of the straight way.
+struct LedPoints {
+  std::vector<std::uint32_t> control_points;  // ascending
+  Eigen::Matrix3Xd positions, velocities;     // 3 x as many [m], [m/s]
+  double time = 0;                            // [s]
+};
+
 struct Contact;  // fem/contact/contact.h
 
 /// Where friction holds a point of the surface (its number in ContactSurface), in the obstacle's own frame [m].
@@ -36,6 +44,7 @@ struct Loads {
   Eigen::Matrix3Xd forces;  // generalised, on control points [N]; empty means none
   std::vector<AnchorSpring> springs = {};
   std::shared_ptr<const Contact> contact = nullptr;  // obstacles and the surface that meets them; null: none
+  LedPoints led = {};                                // statics leaves them where they are
 };
 
 struct System {
@@ -45,7 +54,7 @@ struct System {
   const Eigen::Matrix3Xd* rest_nodes = nullptr;  // 3 x nodes: where the preconditioner takes its tangent
   const Eigen::SparseMatrix<double>* mass = nullptr;
   const Eigen::SparseMatrix<double>* damping = nullptr;
-  std::vector<std::uint8_t> fixed;  // per control point: 1 = moves exactly 0
+  std::vector<std::uint8_t> fixed;  // per control point: 1 = moves exactly 0, or as it is led
   /// What the model is made of, for damping in proportion to stiffness and for counting inverted cells; empty:
   /// none.
   std::span<const ElementBlock> blocks = {};

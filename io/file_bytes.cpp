@@ -44,6 +44,11 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  write_file(path, [&](const std::function<void(std::string_view)>& write) { write(bytes); });
+}
+
+void write_file(const std::filesystem::path& path,
+                const std::function<void(const std::function<void(std::string_view)>& write)>& give) {
   // "x" refuses a name that exists, so neither a stranger's file nor the target of a link is overwritten.
   std::filesystem::path partial;
   File file;
@@ -57,13 +62,24 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     throw Error(ErrorCode::bad_input,
                 "cannot write here: " + reason() + "; choose a folder that exists and is writable", path.string());
   }
-  bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  std::string why = written ? std::string{} : reason();
+  std::error_code fault;
+  bool written = true;
+  std::string why;
+  try {
+    give([&](std::string_view bytes) {
+      if (!written || bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size())
+        return;
+      written = false;
+      why = reason();
+    });
+  } catch (...) {
+    std::filesystem::remove(partial, fault);
+    throw;
+  }
   if (std::fclose(file.release()) != 0 && written) {
     written = false;
     why = reason();
   }
-  std::error_code fault;
   if (written) {
     std::filesystem::rename(partial, path, fault);
     if (!fault) return;

@@ -3,6 +3,7 @@
 // there.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,9 @@ namespace argil::io {
 /// Replaces `path` by `bytes` at one stroke. @throws Error (bad_input) naming the path and the reason; the old
 /// file, if any, is then untouched and nothing else is left.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same of what comes in parts: `give` is called once, and calls its argument with each. What `give` throws
+/// goes on, with the old file untouched.
+void write_file(const std::filesystem::path& path,
+                const std::function<void(const std::function<void(std::string_view)>& write)>& give);
 
 }  // namespace argil::io

@@ -244,10 +244,11 @@ const std::vector<Group>& groups() {
       {"Shaping", {&transform_commands, &smoothing_commands, &sharpen_commands}},
       {"Refining", {&level_commands}},
       {"Material", {&material_commands}},
-      {"Physics", {&load_commands, &simulation_commands, &obstacle_commands}},
+      {"Physics", {&load_commands, &key_commands, &simulation_commands, &obstacle_commands}},
       {"Force tools", {&tool_commands, &stroke_commands}},
       {"History", {&history_commands}},
-      {"Measuring, saving, pictures", {&output_commands, &render_commands, &sampling_commands}},
+      {"Measuring, saving, pictures",
+       {&output_commands, &recording_commands, &render_commands, &sampling_commands}},
   };
   return all;
 }

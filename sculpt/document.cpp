@@ -89,7 +89,9 @@ struct Document::Derived {
 
   std::shared_ptr<const Pins> load_pins;
   std::shared_ptr<const AppliedLoads> applied;
-  std::unique_ptr<fem::Loads> loads;
+  std::unique_ptr<DocumentLoads> load_parts;
+  std::unique_ptr<fem::Loads> loads;  // at `load_time`, if that matters
+  double load_time = 0;
 
   std::shared_ptr<const fem::ContactSurface> contact_surface;
 
@@ -101,7 +103,7 @@ struct Document::Derived {
   }
   void drop_from_discretization() {
     drop_models();
-    loads.reset();
+    load_parts.reset();
     contact_surface.reset();
     shown_elements.reset();
     discretization.reset();
@@ -145,7 +147,7 @@ const fem::Discretization& Document::discretization() const {
   if (same_shape && d.fields == state_.fields) return *d.discretization;
   const fem::NodalFields nodal = nodal_fields(*state_.fields);
   d.drop_models();
-  d.loads.reset();
+  d.load_parts.reset();
   d.contact_surface.reset();
   d.shown_elements.reset();
   d.fields.reset();  // in case what follows throws half way
@@ -211,13 +213,18 @@ fem::Integrator& Document::integrator() const {
   return *d.integrator;
 }
 
-const fem::Loads& Document::loads() const {
+const fem::Loads& Document::loads_at(double time) const {
   Derived& d = *derived_;
   (void)discretization();
-  if (!d.loads || d.load_pins != state_.pins || d.applied != state_.loads) {
-    d.loads = std::make_unique<fem::Loads>(document_loads(*this));
+  const bool same = d.load_parts && d.load_pins == state_.pins && d.applied == state_.loads;
+  if (!same) {
+    d.load_parts = std::make_unique<DocumentLoads>(document_loads(*this));
     d.load_pins = state_.pins;
     d.applied = state_.loads;
+  }
+  if (!same || (d.load_time != time && d.load_parts->change())) {
+    d.loads = std::make_unique<fem::Loads>(d.load_parts->at(time));
+    d.load_time = time;
   }
   return *d.loads;
 }
@@ -273,6 +280,11 @@ std::uint64_t Document::state_hash() const {
   hash.add(motion.time);
   if (motion.accelerations.cols() > 0) add_matrix(motion.accelerations);
   for (const auto& values : s.fields->values) add_matrix(values);
+  const auto add_selection = [&](const Selection& selection) {
+    hash.add(static_cast<std::uint64_t>(selection.type));
+    hash.add(std::uint64_t{selection.ids.size()});
+    for (const std::uint32_t id : selection.ids) hash.add(std::uint64_t{id});
+  };
   hash.add(std::uint64_t{s.pins->control_points.size()});
   for (const std::uint32_t v : s.pins->control_points) hash.add(std::uint64_t{v});
   hash.add(std::uint64_t{s.pins->nodes.size()});
@@ -281,19 +293,25 @@ std::uint64_t Document::state_hash() const {
     hash.add(pin.stiffness);
     add_matrix(pin.target);
   }
+  for (const PinMotion& motion_of_pins : s.pins->motions) {
+    hash.add(std::string_view(motion_of_pins.name));
+    add_selection(motion_of_pins.members);
+    add_matrix(motion_of_pins.pivot);
+    hash.add(motion_of_pins.since);
+    add_to_hash(motion_of_pins.track, hash);
+  }
   add_matrix(s.loads->gravity);
+  if (!s.loads->gravity_track.empty()) add_to_hash(s.loads->gravity_track, hash);
   hash.add(std::uint64_t{s.loads->forces.size()});
   for (const AppliedForce& force : s.loads->forces) {
     add_matrix(force.force);
     add_matrix(force.point);
     hash.add(std::uint64_t{force.faces.size()});
     for (const std::uint32_t f : force.faces) hash.add(std::uint64_t{f});
+    if (!force.cells.empty()) hash.add(std::span<const std::uint32_t>(force.cells));
+    if (!force.name.empty()) hash.add(std::string_view(force.name));
+    if (!force.track.empty()) add_to_hash(force.track, hash);
   }
-  const auto add_selection = [&](const Selection& selection) {
-    hash.add(static_cast<std::uint64_t>(selection.type));
-    hash.add(std::uint64_t{selection.ids.size()});
-    for (const std::uint32_t id : selection.ids) hash.add(std::uint64_t{id});
-  };
   add_selection(*s.selection);
   hash.add(std::uint64_t{s.sets->size()});
   for (const auto& [name, set] : *s.sets) {

@@ -17,6 +17,7 @@
 #include "fem/measure/shown_elements.h"
 #include "fem/models/model_table.h"
 #include "fem/models/plastic_flow.h"
+#include "sculpt/tracks.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
 
@@ -42,27 +43,6 @@ struct Fields {
   Eigen::VectorXd& operator[](FieldName name) { return values[static_cast<std::size_t>(name)]; }
 };
 
-struct SoftPin {
-  std::uint32_t node;      // vertex of the finest level
-  double stiffness;        // [N/m]
-  Eigen::Vector3d target;  // [m]
-};
-struct Pins {
-  std::vector<std::uint32_t> control_points;  // ascending; move exactly 0
-  std::vector<SoftPin> nodes;                 // ascending; by penalty
-};
-
-/// A force that stays until it is cleared: on boundary faces of the control solid, or at a material point.
-struct AppliedForce {
-  Eigen::Vector3d force;                            // [N], in total
-  std::vector<std::uint32_t> faces;                 // control faces; empty: at `point`
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // rest position
-};
-struct AppliedLoads {
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s²]
-  std::vector<AppliedForce> forces;
-};
-
 struct NamedObstacle;  // obstacles.h
 
 /// How the body flows (fem/models/plastic_flow.h); not at all unless on.
@@ -76,6 +56,44 @@ enum class ElementType { vertices, edges, faces, cells, nodes };
 struct Selection {
   ElementType type = ElementType::vertices;
   std::vector<std::uint32_t> ids;  // ascending; nodes are vertices of the finest level
+};
+
+struct SoftPin {
+  std::uint32_t node;      // vertex of the finest level
+  double stiffness;        // [N/m]
+  Eigen::Vector3d target;  // [m]
+};
+/// Pins that keys lead as one rigid body. It is the differences of the keys that count: points go from where they
+/// stand, the targets of soft pins from where they stood at `since`.
+struct PinMotion {
+  std::string name;   // of the set that was taken
+  Selection members;  // vertices or nodes; what is no pin (any more) is passed over
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  double since = 0;  // [s]
+  Track track;       // way [m] and rotation vector [rad]
+};
+struct Pins {
+  std::vector<std::uint32_t> control_points;  // ascending; move exactly 0, or as `motions` say
+  std::vector<SoftPin> nodes;                 // ascending; by penalty
+  std::vector<PinMotion> motions = {};        // by name; no pin is in two
+};
+
+/// A force that stays until it is cleared: on boundary faces of the control solid, through cells of it, or at a
+/// material point.
+struct AppliedForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // [N], in total
+  std::vector<std::uint32_t> faces;                 // control faces
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // rest position, where there are neither faces nor cells
+  std::vector<std::uint32_t> cells = {};            // control cells
+  std::string name = {};                            // empty: none
+  Track track = {};                                 // stands for `force` if it has keys
+
+  [[nodiscard]] bool at_point() const { return faces.empty() && cells.empty(); }
+};
+struct AppliedLoads {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s²]
+  std::vector<AppliedForce> forces;
+  Track gravity_track = {};  // stands for `gravity` if it has keys
 };
 
 struct Tool {
@@ -152,8 +170,10 @@ class Document {
   const fem::ForceModel& model() const;  // of the body as it has flowed
   fem::System system() const;
   fem::Integrator& integrator() const;
-  /// Loads that do not come from a tool, in control points, with the soft pins as springs.
-  const fem::Loads& loads() const;
+  /// Loads that do not come from a tool, in control points, with the soft pins as springs: now, and at another time
+  /// [s] where some are keyed.
+  const fem::Loads& loads() const { return loads_at(state_.motion->time); }
+  const fem::Loads& loads_at(double time) const;
   /// The boundary as obstacles meet it. @throws Error (bad_input) at level 0 with faces of other than four corners.
   std::shared_ptr<const fem::ContactSurface> contact_surface() const;
   const fem::ShownElements& shown_elements() const;  // for strain and stress

@@ -96,17 +96,23 @@ std::shared_ptr<const Pins> EditTransfer::follow(const Pins& pins) const {
   }
   std::sort(result->nodes.begin(), result->nodes.end(),
             [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
+  for (PinMotion motion : pins.motions) {
+    motion.members = follow(motion.members);
+    result->motions.push_back(std::move(motion));
+  }
   return result;
 }
 
 std::shared_ptr<const AppliedLoads> EditTransfer::follow(const AppliedLoads& loads, int& lost) const {
   auto result = std::make_shared<AppliedLoads>();
   result->gravity = loads.gravity;
+  result->gravity_track = loads.gravity_track;
   for (const AppliedForce& force : loads.forces) {
     AppliedForce there = force;
     there.faces = follow(ElementType::faces, force.faces);
     std::erase_if(there.faces, [&](std::uint32_t f) { return !solid_->is_boundary(FaceId{f}); });
-    if (!force.faces.empty() && there.faces.empty())
+    there.cells = follow(ElementType::cells, force.cells);
+    if (there.at_point() && !force.at_point())
       ++lost;
     else
       result->forces.push_back(std::move(there));

@@ -34,12 +34,43 @@ void let_go(State& state, std::uint32_t id) {
 
 }  // namespace
 
+fem::Obstacle standing_obstacle(const NamedObstacle& obstacle, double time) {
+  fem::Obstacle body = obstacle.body;
+  body.time = time;
+  if (obstacle.track.empty()) return body;
+  const RigidMotion motion = motion_at(obstacle.track, obstacle.pivot, time);
+  body.position = motion * body.position;
+  body.orientation = (Eigen::Quaterniond(motion.rotation) * body.orientation).normalized();
+  return body;
+}
+
+namespace {
+
+/// Moves at the mean speed of the way that it has come since `begin`, so that it was where it was then; without one
+/// at the speed that it comes with.
+fem::Obstacle moving_obstacle(const NamedObstacle& obstacle, double begin, double time) {
+  fem::Obstacle body = standing_obstacle(obstacle, time);
+  if (obstacle.track.empty()) return body;
+  const double length = time - begin;
+  if (length > k_same_time) {
+    const fem::Obstacle before = standing_obstacle(obstacle, begin);
+    const Eigen::AngleAxisd turn(body.orientation * before.orientation.conjugate());
+    body.velocity = (body.position - before.position) / length;
+    body.angular_velocity = turn.angle() / length * turn.axis();
+  } else {
+    body.velocity = velocity_at(obstacle.track, obstacle.pivot, time, body.position);
+    body.angular_velocity = angular_velocity_at(obstacle.track, time);
+  }
+  return body;
+}
+
+}  // namespace
+
 std::vector<fem::Obstacle> moving_obstacles(const State& state, double time) {
   std::vector<fem::Obstacle> result;
   if (!state.obstacles) return result;
   for (const NamedObstacle& obstacle : *state.obstacles) {
-    result.push_back(obstacle.body);
-    result.back().time = time;
+    result.push_back(moving_obstacle(obstacle, state.motion->time, time));
   }
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return result;
@@ -125,6 +156,7 @@ std::string description(const NamedObstacle& obstacle) {
     }
   }
   text += fmt::format(", friction {:.6g}", body.friction);
+  if (!obstacle.track.empty()) text += fmt::format(", {} keys", obstacle.track.times.size());
   if (body.stiffness > 0) text += fmt::format(", stiffness {:.6g} Pa/m", body.stiffness);
   return text;
 }
@@ -140,6 +172,10 @@ void hash_obstacles(const std::vector<NamedObstacle>& obstacles, Hash& hash) {
     hash.add(std::span<const double>(body.orientation.coeffs().data(), 4));
     hash.add(body.friction);
     hash.add(body.stiffness);
+    if (!obstacle.track.empty()) {
+      hash.add(std::span<const double>(obstacle.pivot.data(), 3));
+      add_to_hash(obstacle.track, hash);
+    }
   }
 }
 

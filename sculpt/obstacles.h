@@ -15,11 +15,17 @@ class Hash;
 struct NamedObstacle {
   std::string name;
   fem::Obstacle body;  // where it stands; its id is the document's own, from 1
+  /// Keys lead it from there: way [m] and rotation vector [rad] about the pivot; none: it stays.
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  Track track = {};
 };
 
 /// Where the obstacles are at a time [s], and how they move then: the only place that the simulation asks. A step
 /// takes them where they are at its end, and in its parts as they moved to there.
 [[nodiscard]] std::vector<fem::Obstacle> moving_obstacles(const State& state, double time);
+
+/// An obstacle as its keys have it at a time, standing still.
+[[nodiscard]] fem::Obstacle standing_obstacle(const NamedObstacle& obstacle, double time);
 
 /// Contact in a step that ends at a time; null without obstacles.
 [[nodiscard]] std::shared_ptr<const fem::Contact> contact_at(const Document& document, double time);

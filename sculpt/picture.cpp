@@ -65,17 +65,19 @@ Eigen::Vector3d outward_at(const SceneSurface& surface, const Eigen::Vector3d& a
   return normal;
 }
 
-// Where an applied force is drawn: its point, or the middle of its faces.
+// Where an applied force is drawn: its point, or the middle of its faces or cells.
 Eigen::Vector3d point_of(const Document& document, const AppliedForce& force) {
-  if (force.faces.empty())
-    return fem::position(material_point(document, force.point).stencil, document.positions());
+  if (force.at_point()) return fem::position(material_point(document, force.point).stencil, document.positions());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
-  for (const std::uint32_t f : force.faces)
-    for (const VertexId v : document.solid().face_vertices(FaceId{f})) {
+  const auto add = [&](const auto& vertices) {
+    for (const VertexId v : vertices) {
       sum += document.positions().col(static_cast<Eigen::Index>(v.index()));
       ++count;
     }
+  };
+  for (const std::uint32_t f : force.faces) add(document.solid().face_vertices(FaceId{f}));
+  for (const std::uint32_t c : force.cells) add(cell_vertices(document.solid(), CellId{c}));
   return sum / static_cast<double>(count);
 }
 
@@ -93,7 +95,7 @@ void add_marks(Scene& scene, const Document& document, const PictureRequest& req
   }
   std::vector<std::array<Eigen::Vector3d, 2>> forces;
   for (const AppliedForce& force : document.state().loads->forces)
-    forces.push_back({point_of(document, force), force.force});
+    forces.push_back({point_of(document, force), force_at(force, document.state().motion->time)});
   if (request.tool_force) forces.push_back(*request.tool_force);
   double largest = 0;
   for (const auto& [at, force] : forces) largest = std::max(largest, force.norm());

@@ -7,6 +7,7 @@
 
 #include "sculpt/obstacles.h"
 #include "sculpt/paths.h"
+#include "sculpt/recording.h"
 #include "subdiv/error.h"
 
 namespace argil::sculpt {
@@ -40,7 +41,12 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
   }
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  for (const auto& recording : recordings_) try {
+      (void)recording->finish(document_);
+    } catch (const std::exception&) {  // what a program that ends can no longer tell
+    }
+}
 
 void Session::run_text(const std::string& text, const std::string& file_name) {
   const auto lines = io::parse_session(text, file_name);
@@ -52,6 +58,7 @@ void Session::run_text(const std::string& text, const std::string& file_name) {
     run_line(line);
     ++lines_;
   }
+  end_recordings();
   if (line_count_ > 0) progress(1, "");
 }
 
@@ -223,6 +230,8 @@ void Session::step_done(const StepRecord& record, const fem::Loads& tool) {
   if (step_trace_.is_open())
     step_trace_.write(step_trace_row(document_, tool, record, steps_.size(), current_.number));
   trace("step");
+  for (const auto& recording : recordings_) recording->step(document_);
+  if (options_.stepped) options_.stepped(document_);
   const double taken = static_cast<double>(steps_.size() - first_step_);
   const double share = line_count_ > 0     ? static_cast<double>(lines_) / static_cast<double>(line_count_)
                        : wanted_steps_ > 0 ? std::min(1.0, taken / wanted_steps_)
@@ -255,6 +264,26 @@ void Session::measured(const std::string& name, double value) {
 void Session::sampled(SampledLine line) {
   std::erase_if(samples_, [&](const SampledLine& before) { return before.name == line.name; });
   samples_.push_back(std::move(line));
+}
+
+void Session::record(std::unique_ptr<Recording> recording) {
+  for (const auto& other : recordings_)
+    if (other->name() == recording->name())
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("'{0}' is being recorded; `record stop {0}` ends that first, or "
+                              "choose another name",
+                              recording->name()));
+  recordings_.push_back(std::move(recording));
+}
+
+void Session::end_recordings(const std::string& name) {
+  const auto chosen = std::stable_partition(recordings_.begin(), recordings_.end(), [&](const auto& recording) {
+    return !name.empty() && recording->name() != name;
+  });
+  std::vector<std::unique_ptr<Recording>> ended(std::make_move_iterator(chosen),
+                                                std::make_move_iterator(recordings_.end()));
+  recordings_.erase(chosen, recordings_.end());
+  for (const auto& recording : ended) print(recording->finish(document_));
 }
 
 void Session::trace(const std::string& what) {

@@ -19,6 +19,8 @@
 
 namespace argil::sculpt {
 
+class Recording;
+
 /// What one simulation step cost and did.
 struct StepRecord {
   fem::StepReport report;                               // over its substeps; no preconditioner: explicit, or frozen
@@ -58,6 +60,7 @@ struct SessionOptions {
   std::function<void(const std::string&)> print;  // messages for the user
   /// Of a file, or of a line alone: −1 where the fraction is not known. What it throws ends the line.
   std::function<void(double fraction, const std::string& what)> progress;
+  std::function<void(const Document&)> stepped;  // after every step of the simulation, as for a film
 };
 
 class Session {
@@ -112,6 +115,13 @@ class Session {
   void measured(const std::string& name, double value);
   /// Keeps a table for plots; one of the same name before goes.
   void sampled(SampledLine line);
+  /// Has what every step from now on gives written (recording.h). @throws Error (bad_input) if its name is one that
+  /// is being recorded.
+  void record(std::unique_ptr<Recording> recording);
+  const std::vector<std::unique_ptr<Recording>>& recordings() const { return recordings_; }
+  /// Ends those of this name, or all if it is empty, and says what they wrote; the end of run_text does so too.
+  /// @throws Error (bad_input) if one cannot be written to its end; it is then gone.
+  void end_recordings(const std::string& name = {});
   /// "file:line:column" of the line that runs.
   std::string place() const;
 
@@ -144,6 +154,7 @@ class Session {
   std::vector<FailedExpectation> failed_;
   std::vector<MeasureRecord> measures_;
   std::vector<SampledLine> samples_;
+  std::vector<std::unique_ptr<Recording>> recordings_;
   io::SessionLine current_;
   std::filesystem::path journal_path_;
   std::ofstream journal_, trace_;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "sculpt/commands/edit.h"
+#include "sculpt/document_loads.h"
 #include "sculpt/force_tools/force_tool.h"
 #include "sculpt/obstacles.h"
 
@@ -64,15 +65,17 @@ void simulation_step(Session& session, const fem::Loads& tool, double time_step)
   const State before = document.state();
   State next = before;
   fem::BodyState motion = *next.motion;
-  fem::Loads loads = document.loads();
-  add_loads(loads, tool);
-  loads.contact = contact_at(document, motion.time + time_step);
   const fem::StepOptions options = step_options(next);
+  const double load_share = fem::load_share(next.method, next.spectral_radius);
   const bool was_frozen = next.guard.frozen;
   StepRecord record;
   const double length = time_step / next.substeps;
   try {
     for (int part = 0; part < next.substeps; ++part) {
+      fem::Loads loads = document.loads_at(motion.time + load_share * length);
+      add_loads(loads, tool);
+      loads.contact = contact_at(document, motion.time + length);
+      if (!next.pins->motions.empty()) loads.led = led_points(*next.pins, motion, motion.time + length);
       if (next.guard_on) {
         const fem::GuardedReport report =
             fem::guarded_step(document.integrator(), loads, motion, next.guard, length, options, clock);

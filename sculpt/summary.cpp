@@ -98,6 +98,12 @@ std::string summary_json(const Session& session, const std::string& name, int th
   for (const fem::PreconditionerKind kind : fem::k_preconditioner_kinds)
     json["linear_solver"]["steps"][std::string(fem::word(kind))] =
         count([&](const StepRecord& step) { return step.report.preconditioner == kind; });
+  ordered_json keyed = ordered_json::array();
+  if (!document.state().loads->gravity_track.empty()) keyed.push_back("gravity");
+  for (const AppliedForce& force : document.state().loads->forces)
+    if (!force.track.empty()) keyed.push_back("force " + force.name);
+  for (const PinMotion& motion : document.state().pins->motions) keyed.push_back("pin " + motion.name);
+  if (!keyed.empty()) json["keyed"] = keyed;
   json["threads"] = threads;
   if (document.state().obstacles) {
     ordered_json obstacles = ordered_json::array();

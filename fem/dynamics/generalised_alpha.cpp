@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fem/dynamics/integrator_body.h"
+#include "fem/dynamics/led_points.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
@@ -24,12 +25,16 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   StepReport report;
   if (clock) report.ms_tangent += 1e3 * (clock() - start);
 
+  const LedStep led = led_step(loads.led, state, h);
   Eigen::Matrix3Xd velocities = state.velocities, accelerations = state.accelerations;
   clear_held(free, velocities);
+  set_led_columns(loads.led, led_columns(loads.led, state.velocities), velocities);
   if (accelerations.cols() != size())
     accelerations = factored_mass(0).solve(
         with_mass_damping(forces(loads, state, state.time, state.positions, velocities), velocities));
+  const Eigen::Matrix3Xd led_accelerations = led_columns(loads.led, accelerations);
   clear_held(free, accelerations);
+  set_led_columns(loads.led, led_accelerations, accelerations);
 
   Potential goal = potential(loads.springs);
   std::optional<ContactStep> contact = contact_step(loads, state, state.time + (1 - alpha_f) * h);
@@ -45,6 +50,14 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   if (goal.viscous) goal.constant_force -= viscous_product(past);
 
   Eigen::Matrix3Xd q = state.positions + (1 - alpha_f) * h * velocities;
+  // Newmark's update of a position that is given would swing: the acceleration of led points at the point of
+  // balance is drawn on from the mean ones of the last step, which is what they keep, and of this.
+  const Eigen::Matrix3Xd led_q = (1 - alpha_f) * led.positions + alpha_f * led_columns(loads.led, state.positions);
+  const Eigen::Matrix3Xd led_balance =
+      led.accelerations + (0.5 - alpha_f) * (led.accelerations - led_accelerations);
+  const Eigen::Matrix3Xd led_end = (led_balance - alpha_m * led_accelerations) / (1 - alpha_m);
+  set_led_columns(loads.led, led_q, q);
+  set_led_columns(loads.led, led_q - ((1 - alpha_f) * beta * h * h) * led_end, goal.anchor);
   minimise(goal, *preconditioner, newton_options(options), q, report, clock);
 
   const Eigen::Matrix3Xd next_accelerations = (q - goal.anchor) / ((1 - alpha_f) * beta * h * h);
@@ -53,10 +66,13 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
     if (!free[i])
       next_positions.col(static_cast<Eigen::Index>(i)) = state.positions.col(static_cast<Eigen::Index>(i));
   Eigen::Matrix3Xd next_velocities = velocities + h * ((1 - gamma) * accelerations + gamma * next_accelerations);
+  set_led_columns(loads.led, led.positions, next_positions);
+  set_led_columns(loads.led, led.velocities, next_velocities);
   std::vector<ContactGrip> grips = grips_at(contact, q);
   advance(state, std::move(next_positions), std::move(next_velocities), h);
   state.grips = std::move(grips);
   state.accelerations = next_accelerations;
+  set_led_columns(loads.led, led.accelerations, state.accelerations);
   return report;
 }
 

@@ -27,10 +27,12 @@
 // * the good beginning of the first of the steps eased from rest that had one, the body being stopped there;
 // * as a whole: a body without pins, if its forces are finite, keeps its shape and moves as its momentum and loads
 // do. What holds back in an eased step may give back what it took in the same step; more of it counts as energy
-// from nowhere, and pins do no work. If none helps the body stays where it was for this step, at rest. After three
-// such failures it is frozen, until it is thawed or until less than half is left of the dead loads, or of the pull
-// of springs, that acted when it froze: then it is tried again by itself, and one more failure freezes it. An
-// untroubled step with no energy on the account forgets failures.
+// from nowhere; pins do no work but where they are led, by the forces that they need at both ends of the step. In
+// the parts of a step they are led straight, and they stop with a body that is stopped. If none helps the body
+// stays where it was for this step, at rest. After three such failures it is frozen, until it is thawed or until
+// less than half is left of the dead loads, or of the pull of springs, that acted when it froze: then it is tried
+// again by itself, and one more failure freezes it. An untroubled step with no energy on the account forgets
+// failures.
 
 #include <array>
 #include <string>

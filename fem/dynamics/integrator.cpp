@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fem/dynamics/integrator_body.h"
+#include "fem/dynamics/led_points.h"
 #include "subdiv/error.h"
 
 namespace argil::fem {
@@ -102,12 +103,18 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
   }
   Eigen::Matrix3Xd p = state.positions;
   if (!one_solve) p += h * state.velocities;
+  // Led points have the same history as free ones, so that their velocity is the method's own.
+  const Eigen::Matrix3Xd led_anchor = led_columns(loads.led, goal.anchor);
+  const Eigen::Matrix3Xd led_velocity = led_columns(loads.led, velocity);
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (free[i]) continue;
     const auto column = static_cast<Eigen::Index>(i);
     p.col(column) = goal.anchor.col(column) = state.positions.col(column);
     velocity.col(column).setZero();
   }
+  set_led_columns(loads.led, led_anchor, goal.anchor);
+  set_led_columns(loads.led, led_velocity, velocity);
+  set_led_columns(loads.led, led_step(loads.led, state, h).positions, p);
   goal.constant_force = load_forces(loads) + velocity * (*system.mass / c);
   goal.constant_force += velocity_forces(state);
   // The velocity (p − p̄)/c of BDF2 belongs to the end of the step, that of Euler's method to its middle: seen from

@@ -58,10 +58,10 @@ class Integrator {
 
   /// One step of length `time_step` [s]. BDF2 without history of the same step length is implicit Euler, central
   /// difference then starts from position, velocity and acceleration. A fixed control point keeps its position and
-  /// has velocity 0. The model's own forces that depend on velocity are taken at the start of the step; damping by
-  /// density is implicit in implicit methods and in central difference, damping by stiffness in implicit ones.
-  /// The published method takes as many parts as METHODS §4 asks for, at most 500 a step.
-  /// Stops after `newton_cap` iterations without complaint; the report tells.
+  /// has velocity 0, unless the loads lead it. The model's own forces that depend on velocity are taken at the
+  /// start of the step; damping by density is implicit in implicit methods and in central difference, damping by
+  /// stiffness in implicit ones. The published method takes as many parts as METHODS §4 asks for, at most 500 a
+  /// step. Stops after `newton_cap` iterations without complaint; the report tells.
   /// @throws Error (not_converged) if a value is not finite, (limit_exceeded) if a published step has too many
   /// parts, (unsupported) if the published method finds the tangent at rest not symmetric, (bad_input) for a time
   /// step that is not positive; `state` is then as it was.

@@ -56,4 +56,24 @@ const MethodKind& method_kind(Method method) {
   return method_table().front();
 }
 
+double load_share(Method method, double spectral_radius) {
+  switch (method) {
+    case Method::bdf2:
+    case Method::implicit_euler:
+    case Method::semi_implicit:
+      return 1;
+    case Method::generalised_alpha:
+      return 1 / (1 + spectral_radius);  // 1 − α_f
+    case Method::velocity_verlet:        // a trapezoid of two evaluations, to second order
+    case Method::midpoint:
+    case Method::published:  // in many parts
+      return 0.5;
+    case Method::central_difference:
+    case Method::forward_euler:
+    case Method::symplectic_euler:
+      return 0;
+  }
+  return 1;
+}
+
 }  // namespace argil::fem

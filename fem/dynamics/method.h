@@ -33,5 +33,8 @@ struct MethodKind {
 /// @throws Error (not_found) that lists the names.
 [[nodiscard]] const MethodKind& method_by_name(std::string_view name);
 [[nodiscard]] const MethodKind& method_kind(Method method);
+/// Where in a step the method balances forces, as a share of the step: dead loads that change with time are to be
+/// taken there. `spectral_radius` is that of generalised-α.
+[[nodiscard]] double load_share(Method method, double spectral_radius);
 
 }  // namespace argil::fem

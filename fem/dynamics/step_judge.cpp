@@ -8,6 +8,7 @@
 #include <map>
 
 #include "fem/contact/contact.h"
+#include "fem/dynamics/led_points.h"
 #include "fem/parallel.h"
 
 namespace argil::fem {
@@ -105,7 +106,8 @@ GuardFinding StepJudge::judge(const Loads& loads, const BodyState& from, const B
   if (!to.positions.allFinite() || !to.velocities.allFinite()) return GuardFinding::not_finite;
   Worth next = worth(to, 0);
   if (!std::isfinite(next.energy())) return GuardFinding::not_finite;
-  const double gain = next.energy() - before.energy() - work(loads, from, to) + given;
+  const double gain = next.energy() - before.energy() - work(loads, from, to) -
+                      led_work(integrator_->system(), loads, from, to) + given;
   next.surplus = std::max(0.0, before.surplus + gain);
   const double present = std::abs(next.energy());
   const double rounding = k_guard_rounding * (present + std::abs(before.energy()));

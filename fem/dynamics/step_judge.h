@@ -25,8 +25,8 @@ class StepJudge {
 
   [[nodiscard]] Worth worth(const BodyState& state, double surplus);
   /// Takes `before`, of the state `from`, on to `to`, unless something is found. The work is that of `loads`,
-  /// their forces, targets and obstacles standing still where they are at the end; `given` [J] is what among it is
-  /// to be counted as made of nothing.
+  /// their forces, targets and obstacles standing still where they are at the end, and of what leads points;
+  /// `given` [J] is what among it is to be counted as made of nothing.
   [[nodiscard]] GuardFinding judge(const Loads& loads, const BodyState& from, const BodyState& to, double given,
                                    Worth& before);
 

@@ -19,11 +19,13 @@ std::vector<Command> smoothing_commands();   // smooth project
 std::vector<Command> selection_commands();   // select sets
 std::vector<Command> material_commands();    // set paint model
 std::vector<Command> load_commands();        // pin gravity force
+std::vector<Command> key_commands();         // key keys
 std::vector<Command> simulation_commands();  // integrator guard step solve commit
 std::vector<Command> tool_commands();        // tool
 std::vector<Command> stroke_commands();      // stroke curve
 std::vector<Command> history_commands();     // undo redo
 std::vector<Command> output_commands();      // measure expect save
+std::vector<Command> recording_commands();   // record
 std::vector<Command> render_commands();      // render
 std::vector<Command> sampling_commands();    // sample plot
 std::vector<Command> obstacle_commands();    // obstacle plasticity

@@ -37,7 +37,6 @@ void set_level(Session& session, const Arguments& arguments) {
   const auto lost = std::erase_if(pins->nodes, [](const SoftPin& pin) { return pin.node == k_no_node; });
   if (lost > 0)
     session.print(fmt::format("{} pinned nodes do not exist at level {} and are free now", lost, level));
-  next.pins = pins;
   const auto carry = [&](const Selection& selection) {
     Selection result = selection;
     if (selection.type != ElementType::nodes) return result;
@@ -46,6 +45,8 @@ void set_level(Session& session, const Arguments& arguments) {
     std::sort(result.ids.begin(), result.ids.end());
     return result;
   };
+  for (PinMotion& motion : pins->motions) motion.members = carry(motion.members);
+  next.pins = pins;
   next.selection = std::make_shared<Selection>(carry(*next.selection));
   auto sets = std::make_shared<std::map<std::string, Selection>>();
   for (const auto& [name, set] : *next.sets) (*sets)[name] = carry(set);

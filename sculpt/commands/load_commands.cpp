@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
+#include "sculpt/commands/named_forces.h"
 #include "sculpt/document_loads.h"
 #include "sculpt/region.h"
 #include "sculpt/session.h"
@@ -32,8 +34,13 @@ void pin(Session& session, const Arguments& arguments) {
         throw Error(ErrorCode::bad_input,
                     "a refined node is pinned by a spring: give its stiffness, as in `pin stiffness 1e5`");
       const Eigen::Matrix3Xd now = document.surface_nodes(document.positions());
-      for (const std::uint32_t node : selection.ids)
-        pins->nodes.push_back({node, arguments.number("stiffness"), now.col(node)});
+      const double time = next.motion->time;
+      for (const std::uint32_t node : selection.ids) {
+        const PinMotion* motion = motion_of(*pins, ElementType::nodes, node);
+        pins->nodes.push_back(
+            {node, arguments.number("stiffness"),
+             motion ? target_before(*motion, now.col(node), time) : Eigen::Vector3d(now.col(node))});
+      }
       std::sort(pins->nodes.begin(), pins->nodes.end(),
                 [](const SoftPin& a, const SoftPin& b) { return a.node < b.node; });
     }
@@ -74,43 +81,70 @@ void set_gravity(Session& session, const Arguments& arguments) {
   State next = session.document().state();
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
   loads->gravity = arguments.vector("acceleration");
+  if (!loads->gravity_track.empty()) session.print("the keys of gravity are gone: it is the same at all times now");
+  loads->gravity_track = {};
   next.loads = loads;
   session.change(std::move(next));
+}
+
+/// What `force` acts on, by its arguments or the selection.
+AppliedForce read_force(const Session& session, const Arguments& arguments) {
+  AppliedForce applied;
+  applied.force = arguments.vector("force");
+  applied.name = arguments.word("as", "");
+  if (arguments.has("at")) {
+    applied.point = arguments.vector("at");
+    (void)material_point(session.document(), applied.point);  // must lie inside
+    return applied;
+  }
+  const ElementType type = arguments.has("through") ? ElementType::cells : ElementType::faces;
+  auto& ids = type == ElementType::cells ? applied.cells : applied.faces;
+  ids = acted_on(session, arguments, std::span(&type, 1)).ids;
+  for (const std::uint32_t f : applied.faces)
+    if (!session.document().solid().is_boundary(subdiv::FaceId{f}))
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("face {} is inside the solid; a force is spread over boundary faces, `through` cells, or "
+                      "acts `at` a point inside",
+                      f));
+  return applied;
+}
+
+void clear_forces(const Arguments& arguments, std::vector<AppliedForce>& forces) {
+  for (const char* other : {"force", "at", "through", "where"})
+    if (arguments.has(other))
+      throw Error(ErrorCode::bad_input, "`force clear` takes forces away; give a new one on a line of its own");
+  if (!arguments.has("as")) {
+    forces.clear();
+    return;
+  }
+  const std::string& name = arguments.word("as");
+  if (std::erase_if(forces, [&](const AppliedForce& force) { return force.name == name; }) == 0)
+    throw Error(ErrorCode::not_found, no_such_force(forces, name));
 }
 
 void apply_force(Session& session, const Arguments& arguments) {
   require_solid(session);
   State next = session.document().state();
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
-  if (arguments.has("clear") && (arguments.has("force") || arguments.has("at") || arguments.has("where")))
-    throw Error(ErrorCode::bad_input, "`force clear` takes all forces away; give a new one on a line of its own");
-  if (arguments.has("at") && arguments.has("where"))
-    throw Error(ErrorCode::bad_input, "a force acts at a point or on faces; leave out `at` or `where`");
   if (arguments.has("clear")) {
-    loads->forces.clear();
-    next.loads = loads;
-    session.change(std::move(next));
-    return;
-  }
-  if (!arguments.has("force"))
-    throw Error(ErrorCode::bad_input,
-                "force wants its three components, as in `force 0 0 -10 where z > 0.9`, or `clear`");
-  AppliedForce applied;
-  applied.force = arguments.vector("force");
-  if (arguments.has("at")) {
-    applied.point = arguments.vector("at");
-    (void)material_point(session.document(), applied.point);  // must lie inside
+    clear_forces(arguments, loads->forces);
   } else {
-    constexpr ElementType faces[] = {ElementType::faces};
-    applied.faces = acted_on(session, arguments, faces).ids;
-    for (const std::uint32_t f : applied.faces)
-      if (!session.document().solid().is_boundary(subdiv::FaceId{f}))
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("face {} is inside the solid; a force is spread over boundary faces, or "
-                                "acts `at` a point inside",
-                                f));
+    if (arguments.has("at") && (arguments.has("where") || arguments.has("through")))
+      throw Error(ErrorCode::bad_input,
+                  "a force acts at a point, on faces or through cells; leave out `at`, or `where` and `through`");
+    if (!arguments.has("force"))
+      throw Error(ErrorCode::bad_input,
+                  "force wants its three components, as in `force 0 0 -10 where z > 0.9`, or `clear`");
+    AppliedForce applied = read_force(session, arguments);
+    const auto same = std::find_if(loads->forces.begin(), loads->forces.end(), [&](const AppliedForce& force) {
+      return !applied.name.empty() && force.name == applied.name;
+    });
+    if (same != loads->forces.end())
+      *same = std::move(applied);
+    else
+      loads->forces.push_back(std::move(applied));
   }
-  loads->forces.push_back(std::move(applied));
   next.loads = loads;
   session.change(std::move(next));
 }
@@ -147,8 +181,10 @@ std::vector<Command> load_commands() {
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = set_gravity},
       {.name = "force",
-       .summary = "A force in total, spread over boundary faces by area or acting at a point inside; it stays "
-                  "until cleared.",
+       .summary =
+           "A force in total, spread over boundary faces by area, through cells by volume, or acting at a point "
+           "inside; it stays until cleared. One with a name can be keyed over time; given again it is "
+           "replaced.",
        .parameters = {{.name = "force",
                        .help = "its components",
                        .unit = "N",
@@ -157,10 +193,12 @@ std::vector<Command> load_commands() {
                        .low = -1e12,
                        .high = 1e12},
                       {.name = "at", .help = "a material point, by its rest position", .unit = "m", .count = 3},
-                      {.name = "clear", .help = "take all forces away", .flag = true},
+                      {.name = "through", .help = "spread it through cells, not over faces", .flag = true},
+                      {.name = "as", .type = ArgumentType::text, .help = "its name, for `key force`"},
+                      {.name = "clear", .help = "take all forces away, or with `as` that one", .flag = true},
                       {.name = "where",
                        .type = ArgumentType::expression,
-                       .help = "the faces; else those selected"}},
+                       .help = "the faces, or cells; else those selected"}},
        .example = "force 0 0 -10 where z > 0.09",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = apply_force},

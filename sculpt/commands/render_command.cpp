@@ -4,6 +4,7 @@
 #include "sculpt/commands/commands.h"
 #include "sculpt/commands/edit.h"
 #include "sculpt/commands/reference_argument.h"
+#include "sculpt/commands/render_request.h"
 #include "sculpt/picture.h"
 #include "sculpt/session.h"
 #include "sculpt/shown_fields.h"
@@ -144,14 +145,7 @@ PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
 
 void render(Session& session, const Arguments& arguments) {
   require_solid(session);
-  PictureRequest request;
-  read_field(session, arguments, request);
-  read_lines(session, arguments, request);
-  read_cells(arguments, request);
-  request.cage = arguments.has("cage");
-  request.marks = !arguments.has("plain");
-  if (session.tool_force()) request.tool_force = {session.tool_force()->at, session.tool_force()->force};
-  const PictureOptions options = read_view(arguments, request);
+  const RenderRequest request = read_render(session, arguments);
   const std::string& name = arguments.word("file");
   if (!name.ends_with(".png"))
     throw Error(ErrorCode::bad_input, fmt::format("a picture is a .png file, not '{}'", name));
@@ -162,13 +156,32 @@ void render(Session& session, const Arguments& arguments) {
     session.print(fmt::format("{} skipped: there is no renderer", name));
     return;
   }
-  const Scene scene = make_scene(session.document(), request);
-  const Picture picture = arguments.has("beside") ? with_cage_beside(*renderer, session.document(), scene, options)
-                                                  : renderer->render(scene, options);
+  const Picture picture = make_picture(*renderer, session.document(), request);
   io::write_png(path, picture.width, picture.height, picture.rgba);
 }
 
 }  // namespace
+
+RenderRequest read_render(const Session& session, const Arguments& arguments) {
+  RenderRequest request;
+  read_field(session, arguments, request.picture);
+  read_lines(session, arguments, request.picture);
+  read_cells(arguments, request.picture);
+  request.picture.cage = arguments.has("cage");
+  request.picture.marks = !arguments.has("plain");
+  if (session.tool_force()) request.picture.tool_force = {session.tool_force()->at, session.tool_force()->force};
+  request.options = read_view(arguments, request.picture);
+  request.beside = arguments.has("beside");
+  return request;
+}
+
+Picture make_picture(Renderer& renderer, const Document& document, const RenderRequest& request,
+                     const std::vector<Eigen::Vector3f>& framed) {
+  Scene scene = make_scene(document, request.picture);
+  scene.framed = framed;
+  return request.beside ? with_cage_beside(renderer, document, scene, request.options)
+                        : renderer.render(scene, request.options);
+}
 
 std::vector<Command> render_commands() {
   return {

@@ -85,7 +85,7 @@ void commit(Session& session, const Arguments&) {
   // A force at a point stays with its matter, which has a new rest position.
   auto loads = std::make_shared<AppliedLoads>(*next.loads);
   for (AppliedForce& force : loads->forces)
-    if (force.faces.empty())
+    if (force.at_point())
       force.point = fem::position(material_point(document, force.point).stencil, document.positions());
   next.loads = loads;
   next.rest = std::make_shared<Eigen::Matrix3Xd>(next.motion->positions);

@@ -100,6 +100,34 @@ int run(int argc, char** argv) {
       "guard {on, frozen, found, steps}, linear_solver {rule, steps}, threads, measures, expectations.");
   replay_app->callback([&] { status = replay(replaying); });
 
+  MovieArguments filming;
+  CLI::App* movie_app = app.add_subcommand(
+      "movie", "Replays a session as a film of its simulation, or turns about its last shape: .mp4, .gif, .png");
+  movie_app->add_option("session", filming.session, "the session file")->required();
+  movie_app->add_option("--out", filming.out, "folder for results (default: out/<session name>)");
+  movie_app->add_option(
+      "--file", filming.file,
+      "the film beneath it: .mp4 or .gif, made by ffmpeg, or .png for numbered pictures (default: the "
+      "session's name, .mp4 where there is ffmpeg, else .png)");
+  movie_app->add_option("--fps", filming.rate, "pictures a second of simulated time; of a turn, of the film")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  movie_app->add_flag("--turntable", filming.turntable, "once about the last shape, which stands still");
+  movie_app->add_option("--seconds", filming.seconds, "of a turn")
+      ->check(CLI::Range(0.01, 600.0))
+      ->capture_default_str();
+  movie_app->add_option("--with", filming.options,
+                        "arguments of the session command `render`, as in --with \"field strain size 800 600\"");
+  movie_app->add_option("--max-cells", filming.limits.cells, "refuse to make more cells")->capture_default_str();
+  movie_app->add_option("--max-steps", filming.limits.steps, "refuse to take more steps")->capture_default_str();
+  movie_app->add_flag("--quiet", filming.quiet, "no progress, no messages");
+  movie_app->footer("The session runs twice: first to see where the body goes, so that the eye stands still.");
+  movie_app->callback([&] {
+    if (movie_app->count("--seconds") > 0 && !filming.turntable)
+      throw argil::Error(argil::ErrorCode::bad_input, "--seconds is that of a turn; add --turntable");
+    status = movie(filming);
+  });
+
   ReplayArguments restoring;
   restoring.journal = true;
   CLI::App* restore_app = app.add_subcommand(

@@ -108,6 +108,18 @@ struct AtlasArguments {
 };
 int stability_atlas(const AtlasArguments& arguments);
 
+struct MovieArguments {
+  std::filesystem::path session, out;
+  std::string file;     // beneath `out`: .mp4, .gif or .png; empty: the session's name, .mp4 where there is ffmpeg
+  std::string options;  // of the session command `render`
+  double rate = 30;     // pictures a second of simulated time
+  bool turntable = false;
+  double seconds = 6;  // of a turn
+  sculpt::Limits limits;
+  bool quiet = false;
+};
+int movie(const MovieArguments& arguments);
+
 struct StudioArguments {
   std::filesystem::path file;                // a session or a volume mesh; empty: a new block
   std::filesystem::path script;              // runs off the screen; empty: a window

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/document_loads.h"
 #include "tools/studio/quantity.h"
 
 namespace argil::studio {
@@ -191,7 +192,7 @@ void physics_panel(Desk& desk) {
     return;
   }
   ui.section("Loads");
-  const Eigen::Vector3d gravity = now.state.loads->gravity;
+  const Eigen::Vector3d gravity = sculpt::gravity_at(*now.state.loads, now.state.motion->time);
   double g[3] = {gravity.x(), gravity.y(), gravity.z()};
   if (ui.vector_row("Gravity", g,
                     {.unit = "m/s²", .tooltip = "Acceleration; on earth 0 0 -9.81", .low = -1e3, .high = 1e3}))

@@ -91,6 +91,9 @@ std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   if (scene.legend && !(std::isfinite(scene.legend->low) && std::isfinite(scene.legend->high)))
     throw Error(ErrorCode::bad_geometry, "expected a finite range of the legend, found " +
                                              fmt::format("{} to {}", scene.legend->low, scene.legend->high));
+  if (scene.framed.empty()) return all;
+  all.clear();
+  for (std::size_t i = 0; i < scene.framed.size(); ++i) add(scene.framed[i], "framed point", i);
   return all;
 }
 
