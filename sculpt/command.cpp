@@ -247,7 +247,7 @@ const std::vector<Group>& groups() {
       {"Physics", {&load_commands, &simulation_commands}},
       {"Force tools", {&tool_commands, &stroke_commands}},
       {"History", {&history_commands}},
-      {"Measuring, saving, pictures", {&output_commands, &render_commands, &sampling_commands}},
+      {"Measuring, saving, pictures", {&output_commands, &render_commands, &sampling_commands, &panel_commands}},
   };
   return all;
 }

@@ -8,8 +8,11 @@
 
 #include "sculpt/document_loads.h"
 #include "sculpt/export.h"
+#include "sculpt/force_tools/curve.h"
+#include "sculpt/force_tools/touched.h"
 #include "sculpt/measures.h"
 #include "sculpt/region.h"
+#include "sculpt/shown_unit.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
@@ -19,6 +22,8 @@ namespace argil::sculpt {
 namespace {
 
 using namespace subdiv;
+
+constexpr double k_cell_size = 0.9;  // of cells that are drawn by themselves
 
 Eigen::Vector3f single(const Eigen::Vector3d& v) {
   return v.cast<float>();
@@ -154,9 +159,30 @@ namespace {
 
 SceneSurface surface_of(const Solid& solid, const Eigen::Matrix3Xd& positions, const PictureRequest& request,
                         const CellData<std::uint8_t>& kept, const Refinement& refinement) {
+  if (request.shrink || request.cell_kinds)
+    return separate_cells(solid, positions, request.shrink.value_or(k_cell_size), kept);
   SceneSurface surface = cells_surface(solid, positions, kept);
   if (request.control_wire) keep_wire_between(surface, control_cells(refinement));
   return surface;
+}
+
+void add_curve(Scene& scene, const Document& document, const std::vector<Eigen::Vector3d>& handles) {
+  constexpr int k_pieces = 24;  // of a span
+  const HandleCurve curve(handles);
+  const int pieces = k_pieces * static_cast<int>(std::lround(curve.end()));
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i <= pieces; ++i) places.push_back(curve.point(curve.end() * i / pieces));
+  places = nearest_on_surface(document, places);
+  SceneLines lines{LineLook::curve, {}, "curve"};
+  for (std::size_t i = 1; i < places.size(); ++i) lines.lines.push_back({single(places[i - 1]), single(places[i])});
+  scene.lines.push_back(std::move(lines));
+  for (const Eigen::Vector3d& handle : handles) scene.handles.push_back(single(handle));
+}
+
+SceneFelt felt_force(const PictureRequest& request) {
+  const double force = request.tool_force ? (*request.tool_force)[1].norm() : 0;
+  const ShownUnit shown = shown_unit("N", std::max(force, 1e-3 * *request.felt));
+  return {force / *request.felt, fmt::format("felt {:.3g} {}", force * shown.per_value, shown.unit)};
 }
 
 void apply_range(Scene& scene, const PictureRequest& request) {
@@ -205,6 +231,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
     add_lines(scene, solid, positions, request.style == PictureStyle::boundary_wireframe);
   }
   if (!request.field.empty() && !request.underlay) add_field(scene, document, request, positions, kept);
+  if (request.cell_kinds) show_cell_kinds(scene, solid);
   if (request.frames) {
     add_frames(scene, document, *request.frames, kept);
     scene.draw_surface = false;
@@ -223,6 +250,8 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   if (request.cage) add_cage(scene, document.solid(), document.positions());
   if (request.line) add_material_line(scene, document, *request.line);
   if (request.marks) add_marks(scene, document, request, positions);
+  if (request.marks && request.curve_handles.size() > 1) add_curve(scene, document, request.curve_handles);
+  if (request.felt) scene.felt = felt_force(request);
   if (request.underlay) {
     lay_under(scene, *request.underlay, request.field, request.underlay_wires);
     apply_range(scene, request);

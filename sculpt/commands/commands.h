@@ -26,5 +26,6 @@ std::vector<Command> history_commands();     // undo redo
 std::vector<Command> output_commands();      // measure expect save
 std::vector<Command> render_commands();      // render
 std::vector<Command> sampling_commands();    // sample plot
+std::vector<Command> panel_commands();       // panels
 
 }  // namespace argil::sculpt

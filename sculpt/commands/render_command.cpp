@@ -45,9 +45,10 @@ void read_field(const Session& session, const Arguments& arguments, PictureReque
   }
   if (arguments.has("colours")) {
     const std::string& map = arguments.word("colours");
-    request.colours = map == "cividis"    ? ColourMap::cividis
-                      : map == "balanced" ? ColourMap::balanced
-                                          : ColourMap::viridis;
+    request.colours = map == "cividis"     ? ColourMap::cividis
+                      : map == "balanced"  ? ColourMap::balanced
+                      : map == "green_red" ? ColourMap::green_red
+                                           : ColourMap::viridis;
     if (request.field.empty())
       throw Error(ErrorCode::bad_input, "colours are those of a field; add `field strain`");
   }
@@ -123,6 +124,26 @@ void read_cells(const Arguments& arguments, PictureRequest& request) {
                                                   : PictureStyle::solid;
 }
 
+/// Every cell by itself.
+void read_separate_cells(const Arguments& arguments, PictureRequest& request) {
+  request.cell_kinds = arguments.has("cell_kinds");
+  if (arguments.has("shrink")) request.shrink = arguments.number("shrink");
+  if (!request.cell_kinds && !request.shrink) return;
+  const std::string what = request.shrink ? "shrink" : "cell_kinds";
+  for (const char* other : {"volume", "underlay", "frames", "style", "corner", "net", "springs"})
+    if (arguments.has(other))
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("{0} draws the cells, {1} something in their place; leave out {0} or {1}", what, other));
+  if (arguments.word("wire", "cells") == "control")
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{0} shows every cell with its own edges; leave out `wire control` "
+                            "or {0}",
+                            what));
+  if (request.cell_kinds && !request.field.empty())
+    throw Error(ErrorCode::bad_input, "cells have one colour; leave out field or cell_kinds");
+}
+
 PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
   if (arguments.has("from") && arguments.vector("from").isZero(0))
     throw Error(ErrorCode::bad_input, "the direction to the eye is zero; `from 0 -1 0` looks at the front");
@@ -130,6 +151,14 @@ PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
   if (arguments.has("size")) {
     options.width = static_cast<int>(arguments.numbers("size")[0]);
     options.height = static_cast<int>(arguments.numbers("size")[1]);
+  }
+  options.title = arguments.word("title", "");
+  if (arguments.has("frame")) {
+    const std::vector<double>& box = arguments.numbers("frame");
+    if (box[0] == box[3] && box[1] == box[4] && box[2] == box[5])
+      throw Error(ErrorCode::bad_input, "the two corners of the frame are the same; `frame 0 0 0 1 1 1` is a cube");
+    options.frame = {Eigen::Vector3d(box[0], box[1], box[2]).cast<float>(),
+                     Eigen::Vector3d(box[3], box[4], box[5]).cast<float>()};
   }
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
@@ -148,9 +177,14 @@ void render(Session& session, const Arguments& arguments) {
   read_field(session, arguments, request);
   read_lines(session, arguments, request);
   read_cells(arguments, request);
+  read_separate_cells(arguments, request);
   request.cage = arguments.has("cage");
   request.marks = !arguments.has("plain");
-  if (session.tool_force()) request.tool_force = {session.tool_force()->at, session.tool_force()->force};
+  if (session.tool_force()) {
+    request.tool_force = {session.tool_force()->at, session.tool_force()->force};
+    request.curve_handles = session.tool_force()->curve_handles;
+  }
+  if (arguments.has("felt")) request.felt = arguments.number("felt");
   const PictureOptions options = read_view(arguments, request);
   const std::string& name = arguments.word("file");
   if (!name.ends_with(".png"))
@@ -187,8 +221,9 @@ std::vector<Command> render_commands() {
             {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
             {.name = "colours",
              .type = ArgumentType::word,
-             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis",
-             .choices = {"viridis", "cividis", "balanced"}},
+             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis; "
+                     "green_red: from soft to stiff",
+             .choices = {"viridis", "cividis", "balanced", "green_red"}},
             reference_parameter(),
             {.name = "volume",
              .help = "the field inside as a translucent volume, in place of the surface",
@@ -227,14 +262,28 @@ std::vector<Command> render_commands() {
              .type = ArgumentType::word,
              .help = "how",
              .choices = {"solid", "wireframe", "boundary_wireframe"}},
+            {.name = "shrink",
+             .help = "every cell by itself, drawn about its middle to this part of its size",
+             .low = 0.01,
+             .high = 1},
+            {.name = "cell_kinds",
+             .help = "every cell by itself, coloured by what decides its element: regular (it has a net of 64), "
+                     "extraordinary, irregular (no hexahedron)",
+             .flag = true},
             {.name = "cage", .help = "with the control cage", .flag = true},
             {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
-            {.name = "plain", .help = "without arrows and pins", .flag = true},
+            {.name = "plain", .help = "without arrows, pins and the curve of a stroke", .flag = true},
             {.name = "wire",
              .type = ArgumentType::word,
              .help = "edges drawn: of the finest cells, of the control cells, none",
              .choices = {"cells", "control", "none"}},
             {.name = "light", .help = "on light ground", .flag = true},
+            {.name = "felt",
+             .help = "the ground takes colour by the force of the last stroke, all of it at this force",
+             .unit = "N",
+             .low = 1e-9,
+             .high = 1e12},
+            {.name = "title", .type = ArgumentType::text, .help = "above the picture"},
             {.name = "size",
              .type = ArgumentType::integer,
              .help = "width and height",
@@ -243,6 +292,12 @@ std::vector<Command> render_commands() {
              .low = 1,
              .high = 4096},
             {.name = "from", .help = "direction from the solid to the eye", .count = 3},
+            {.name = "frame",
+             .help = "two corners of a box that fills the picture, whatever the solid does; else all that is there",
+             .unit = "m",
+             .count = 6,
+             .low = -1e9,
+             .high = 1e9},
             {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
             {.name = "net",
              .type = ArgumentType::integer,
