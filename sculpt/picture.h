@@ -40,6 +40,7 @@ struct PictureRequest {
   bool underlay_wires = false;                   // and with its own edges
   bool springs = false;                          // those of the model, in place of surface and wires
   std::optional<std::array<Eigen::Vector3d, 2>> line;  // ends of a material line, at rest
+  int smooth = 0;                                      // refined so many times more, for the picture only
   std::optional<double> shrink;                        // every cell by itself, of this size
   bool cell_kinds = false;                             // and coloured by its kind
   std::vector<Eigen::Vector3d> curve_handles;          // of a curve on the surface [m]; fewer than two: none

@@ -207,8 +207,11 @@ std::string Stroke::finish() {
   session_.change(std::move(next));
   if (!tools_.empty()) {
     ToolForce shown{now.at, now.force, options_.curve};
-    if (!shown.curve_handles.empty())
-      shown.curve_handles[options_.handle] += pose_.position - path_.front().pose.position;
+    if (!shown.curve_handles.empty()) {
+      Eigen::Vector3d& moved = shown.curve_handles[options_.handle];
+      moved += pose_.position - path_.front().pose.position;
+      shown.at = moved;
+    }
     session_.show_tool_force(shown);
   }
   return line();

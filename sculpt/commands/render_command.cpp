@@ -124,6 +124,18 @@ void read_cells(const Arguments& arguments, PictureRequest& request) {
                                                   : PictureStyle::solid;
 }
 
+/// Finer for the picture only.
+void read_smooth(const Session& session, const Arguments& arguments, PictureRequest& request) {
+  request.smooth = static_cast<int>(arguments.integer("smooth", 0));
+  if (request.smooth == 0) return;
+  for (const char* other : {"frames", "corner", "net", "springs", "shrink", "cell_kinds"})
+    if (arguments.has(other))
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("{0} shows the elements as they are simulated; leave out smooth or {0}", other));
+  const int level = session.document().state().level + request.smooth;
+  check_cells(session, static_cast<double>(subdiv::refined_cell_count(session.document().solid(), level)));
+}
+
 /// Every cell by itself.
 void read_separate_cells(const Arguments& arguments, PictureRequest& request) {
   request.cell_kinds = arguments.has("cell_kinds");
@@ -177,6 +189,7 @@ void render(Session& session, const Arguments& arguments) {
   read_field(session, arguments, request);
   read_lines(session, arguments, request);
   read_cells(arguments, request);
+  read_smooth(session, arguments, request);
   read_separate_cells(arguments, request);
   request.cage = arguments.has("cage");
   request.marks = !arguments.has("plain");
@@ -262,6 +275,11 @@ std::vector<Command> render_commands() {
              .type = ArgumentType::word,
              .help = "how",
              .choices = {"solid", "wireframe", "boundary_wireframe"}},
+            {.name = "smooth",
+             .type = ArgumentType::integer,
+             .help = "refined so many times more, for this picture only",
+             .low = 0,
+             .high = 4},
             {.name = "shrink",
              .help = "every cell by itself, drawn about its middle to this part of its size",
              .low = 0.01,
