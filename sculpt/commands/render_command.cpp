@@ -311,7 +311,9 @@ std::vector<Command> render_commands() {
              .high = 4096},
             {.name = "from", .help = "direction from the solid to the eye", .count = 3},
             {.name = "frame",
-             .help = "two corners of a box that fills the picture, whatever the solid does; else all that is there",
+             .help = "two corners of a box that fills the picture, whatever else is there: for pictures of one "
+                     "scale; else the "
+                     "solid, arrows and legend",
              .unit = "m",
              .count = 6,
              .low = -1e9,

@@ -115,8 +115,9 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const float pixel = std::clamp(small, 0.75F, 5.0F);
     const bool has_room = options.width >= 160 && options.height >= 120;  // for legend and key
     const bool has_legend = scene.legend && has_room;
-    Margins free = margins(scene, options, pixel, has_legend);
-    if (has_room) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
+    // A frame says itself what must be seen, so that pictures of one frame have one scale.
+    Margins free = options.frame ? Margins{} : margins(scene, options, pixel, has_legend);
+    if (has_room && !options.frame) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
     const Camera camera = framing_camera(positions, options, free);
 
     context_.make_current();
