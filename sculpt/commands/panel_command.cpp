@@ -6,6 +6,7 @@
 
 #include "io/image.h"
 #include "sculpt/commands/commands.h"
+#include "sculpt/commands/edit.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
 
@@ -86,6 +87,7 @@ io::Image sheet_of(const std::vector<io::Image>& pictures, int columns, int gap,
 }
 
 void panels(Session& session, const Arguments& arguments) {
+  require_solid(session);
   const std::string& name = arguments.word("file");
   if (!name.ends_with(".png"))
     throw Error(ErrorCode::bad_input, fmt::format("a picture is a .png file, not '{}'", name));

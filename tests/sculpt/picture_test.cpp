@@ -111,7 +111,7 @@ TEST(CellKinds, ColourEachCellAsTheTableOfElementsCounts) {
 
 TEST(CurvePictures, ShowTheHandlesWhereTheyWentAndTheCurveOnTheSurface) {
   TestSession session(k_slab);
-  session.run({"tool pull radius 0.1 strength 2000",
+  session.run({"tool pull radius 0.1 strength 50000",
                "curve through 0.1 0.3 0.1 0.3 0.3 0.1 0.5 0.3 0.1 handle 2 to 0.3 0.3 0.16 ticks 200 hold 100"});
   ASSERT_TRUE(session->tool_force());
   const std::vector<Eigen::Vector3d> handles = session->tool_force()->curve_handles;
@@ -135,23 +135,22 @@ TEST(CurvePictures, ShowTheHandlesWhereTheyWentAndTheCurveOnTheSurface) {
 }
 
 TEST(FeltForce, OfAProbeIsItsStiffnessTimesItsDepthUpToItsLimit) {
-  TestSession session(k_slab);
-  session.run({"tool probe radius 0.1"});
+  TestSession session({"new box 6 6 6 size 0.6 0.6 0.6", "levels 1", "set young_modulus 5e4", "pin where z < 0.001",
+                       "tool probe radius 0.15"});
   const std::uint64_t before = session.hash();
   const auto press = [&](double z) {
     session.run({"stroke from 0.3 0.3 " + std::to_string(z) + " to 0.3 0.3 " + std::to_string(z) + " ticks 10"});
     return session.measure("tool_force");
   };
-  // The surface lies beneath z = 0.1 where it has been refined.
-  EXPECT_EQ(press(0.11), 0);
-  const double deep = press(0.07), deeper = press(0.06), deepest = press(0.05);
+  EXPECT_EQ(press(0.61), 0);
+  const double deep = press(0.59), deeper = press(0.58), deepest = press(0.57);
   EXPECT_GT(deep, 0);
   // The stiffness read hardly depends on the depth while the brush holds nearly the same points.
   EXPECT_NEAR(deeper - deep, deepest - deeper, 0.03 * (deeper - deep));
-  EXPECT_NEAR((deeper - deep) / 0.01, session.measure("felt_stiffness at 0.3 0.3 0.07"),
+  EXPECT_NEAR((deeper - deep) / 0.01, session.measure("felt_stiffness at 0.3 0.3 0.58"),
               0.05 * (deeper - deep) / 0.01);
-  session.run({"tool probe radius 0.1 limit 2"});
-  EXPECT_DOUBLE_EQ(press(0.05), 2);
+  session.run({"tool probe radius 0.15 limit 2"});
+  EXPECT_DOUBLE_EQ(press(0.57), 2);
   session.run({"undo"});
   EXPECT_EQ(session.hash(), before);  // a probe changes nothing
   EXPECT_EQ(session.measure("tool_force"), 0);
