@@ -248,7 +248,7 @@ const std::vector<Group>& groups() {
       {"Force tools", {&tool_commands, &stroke_commands}},
       {"History", {&history_commands}},
       {"Measuring, saving, pictures",
-       {&output_commands, &recording_commands, &render_commands, &sampling_commands}},
+       {&output_commands, &recording_commands, &render_commands, &sampling_commands, &panel_commands}},
   };
   return all;
 }

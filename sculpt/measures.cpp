@@ -148,6 +148,10 @@ const std::vector<MeasureInfo>& measure_table() {
         {"contact_depth", "m", "largest depth of a point of the boundary in an obstacle"},
         {"max_plastic_strain", "", "largest equivalent strain to which a quadrature point has flowed"},
         {"reaction", "N", "what the pins apply", false, true},
+        {"tool_force", "N",
+         "size of the force of the last stroke or curve at its end, of a probe what a device feels at the depth "
+         "where it "
+         "is; 0 after any other change"},
     };
     for (const DerivedField& field : derived_fields())
       for (const auto& [kind, ending] : k_kinds)
@@ -204,6 +208,7 @@ double measure(const Document& document, const MeasureQuery& query) {
   const auto elastic = [&] { return document.model().energy(present_nodes(document)); };
   const auto kinetic = [&] { return fem::energy(document.system(), motion).kinetic; };
 
+  if (name == "tool_force") return query.tool_force;
   if (name == "volume") return fem::volume(document.discretization(), present_nodes(document));
   if (name == "mass") return document.discretization().total_mass;
   if (name == "energy") return elastic() + kinetic();

@@ -25,6 +25,7 @@ struct MeasureQuery {
   std::optional<Eigen::Vector3d> at = std::nullopt;
   const Expression* where = nullptr;
   const ReferenceShape* reference = nullptr;
+  double tool_force = 0;  // [N], of the session's last stroke: the document does not know it
 };
 /// @throws Error (not_found) for another name; (bad_input) for a missing or superfluous point or condition.
 [[nodiscard]] double measure(const Document& document, const MeasureQuery& query);

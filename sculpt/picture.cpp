@@ -10,8 +10,12 @@
 
 #include "sculpt/document_loads.h"
 #include "sculpt/export.h"
+#include "sculpt/field_transfer.h"
+#include "sculpt/force_tools/curve.h"
+#include "sculpt/force_tools/touched.h"
 #include "sculpt/measures.h"
 #include "sculpt/region.h"
+#include "sculpt/shown_unit.h"
 #include "subdiv/error.h"
 #include "subdiv/neighbourhood.h"
 #include "subdiv/radial_edge.h"
@@ -22,9 +26,36 @@ namespace {
 
 using namespace subdiv;
 
+constexpr double k_cell_size = 0.9;  // of cells that are drawn by themselves
+
 Eigen::Vector3f single(const Eigen::Vector3d& v) {
   return v.cast<float>();
 }
+
+/// The body as it is drawn: as it is simulated, or its control points refined further and what is known at its
+/// nodes carried along.
+struct Shown {
+  const Document& document;
+  std::optional<Refinement> finer = std::nullopt;
+
+  Shown(const Document& of, int smooth) : document(of) {
+    if (smooth > 0) finer = refine_to_level(of.solid(), of.state().level + smooth, of.state().rules);
+  }
+  const Refinement& refinement() const { return finer ? *finer : document.refinement(); }
+  const Solid& solid() const { return refinement().solid(); }
+  Eigen::Matrix3Xd nodes(const Eigen::Matrix3Xd& control_points) const {
+    if (finer) return apply(finer->stencils.back(), control_points);
+    return document.state().level == 0 ? control_points : document.surface_nodes(control_points);
+  }
+  Eigen::VectorXd values(Eigen::VectorXd of_nodes) const {
+    if (finer)
+      for (auto level = static_cast<std::size_t>(document.state().level) + 1; level < finer->levels.size(); ++level)
+        of_nodes = apply(finer->step_stencils[level], of_nodes);
+    return of_nodes;
+  }
+  /// Where a node of the simulation is drawn.
+  std::vector<std::uint32_t> new_from_old() const { return nodes_at_level(document.refinement(), refinement()); }
+};
 
 double extent(const Eigen::Matrix3Xd& positions) {
   if (positions.cols() == 0) return 1;
@@ -81,17 +112,18 @@ Eigen::Vector3d point_of(const Document& document, const AppliedForce& force) {
   return sum / static_cast<double>(count);
 }
 
-void add_marks(Scene& scene, const Document& document, const PictureRequest& request, const Eigen::Matrix3Xd& now) {
+void add_marks(Scene& scene, const Shown& body, const PictureRequest& request, const Eigen::Matrix3Xd& now) {
+  const Document& document = body.document;
   const double size = extent(now);
   // A pinned control point is shown where it holds the surface.
-  const auto node = node_from_control_vertex(document);
+  const auto node = node_from_control_vertex(document), drawn = body.new_from_old();
   std::vector<std::uint8_t> shown(static_cast<std::size_t>(now.cols()), 0);
   for (const std::uint32_t v : scene.surface.vertex_from_surface) shown[v] = 1;
   for (const std::uint32_t v : document.state().pins->control_points)
-    if (shown[node[v]]) scene.pins.push_back(single(now.col(node[v])));
+    if (shown[drawn[node[v]]]) scene.pins.push_back(single(now.col(drawn[node[v]])));
   if (!document.state().pins->nodes.empty()) {
     for (const SoftPin& pin : document.state().pins->nodes)
-      if (shown[pin.node]) scene.pins.push_back(single(now.col(pin.node)));
+      if (shown[drawn[pin.node]]) scene.pins.push_back(single(now.col(drawn[pin.node])));
   }
   std::vector<std::array<Eigen::Vector3d, 2>> forces;
   for (const AppliedForce& force : document.state().loads->forces)
@@ -158,9 +190,30 @@ namespace {
 
 SceneSurface surface_of(const Solid& solid, const Eigen::Matrix3Xd& positions, const PictureRequest& request,
                         const CellData<std::uint8_t>& kept, const Refinement& refinement) {
+  if (request.shrink || request.cell_kinds)
+    return separate_cells(solid, positions, request.shrink.value_or(k_cell_size), kept);
   SceneSurface surface = cells_surface(solid, positions, kept);
   if (request.control_wire) keep_wire_between(surface, control_cells(refinement));
   return surface;
+}
+
+void add_curve(Scene& scene, const Document& document, const std::vector<Eigen::Vector3d>& handles) {
+  constexpr int k_pieces = 24;  // of a span
+  const HandleCurve curve(handles);
+  const int pieces = k_pieces * static_cast<int>(std::lround(curve.end()));
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i <= pieces; ++i) places.push_back(curve.point(curve.end() * i / pieces));
+  places = nearest_on_surface(document, places);
+  SceneLines lines{LineLook::curve, {}, "curve"};
+  for (std::size_t i = 1; i < places.size(); ++i) lines.lines.push_back({single(places[i - 1]), single(places[i])});
+  scene.lines.push_back(std::move(lines));
+  for (const Eigen::Vector3d& handle : handles) scene.handles.push_back(single(handle));
+}
+
+SceneFelt felt_force(const PictureRequest& request) {
+  const double force = request.tool_force ? (*request.tool_force)[1].norm() : 0;
+  const ShownUnit shown = shown_unit("N", std::max(force, 1e-3 * *request.felt));
+  return {force / *request.felt, fmt::format("felt {:.3g} {}", force * shown.per_value, shown.unit)};
 }
 
 void apply_range(Scene& scene, const PictureRequest& request) {
@@ -169,12 +222,13 @@ void apply_range(Scene& scene, const PictureRequest& request) {
   scene.legend->high = (*request.range)[1];
 }
 
-void add_field(Scene& scene, const Document& document, const PictureRequest& request,
-               const Eigen::Matrix3Xd& positions, const CellData<std::uint8_t>& kept) {
-  const ShownField field = shown_field(document, request.field, request.reference.get());
+void add_field(Scene& scene, const Shown& body, const PictureRequest& request, const Eigen::Matrix3Xd& positions,
+               const CellData<std::uint8_t>& kept) {
+  ShownField field = shown_field(body.document, request.field, request.reference.get());
+  field.values = body.values(std::move(field.values));
   const ColourMap map = request.colours.value_or(field.map);
   if (request.volume) {
-    scene.volume = scene_volume(document.refinement().solid(), positions, kept, field.values);
+    scene.volume = scene_volume(body.solid(), positions, kept, field.values);
     scene.volume->opacity = request.opacity;
     scene.draw_surface = false;
     scene.legend = field_legend(std::vector<double>(scene.volume->values.begin(), scene.volume->values.end()),
@@ -194,21 +248,22 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   if (request.corner) return corner_scene(document, *request.corner);
   if (request.volume && request.field.empty())
     throw Error(ErrorCode::bad_input, "a volume is of a field; add `field strain`");
-  const Solid& solid = document.refinement().solid();
-  const Eigen::Matrix3Xd positions =
-      document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
+  const Shown body(document, request.smooth);
+  const Solid& solid = body.solid();
+  const Eigen::Matrix3Xd positions = body.nodes(document.positions());
   Scene scene;
   const CellData<std::uint8_t> kept =
       request.clip ? cells_met_or_kept(solid, positions, *request.clip) : CellData<std::uint8_t>{};
   if (request.style == PictureStyle::solid) {
-    scene.surface = surface_of(solid, positions, request, kept, document.refinement());
+    scene.surface = surface_of(solid, positions, request, kept, body.refinement());
   } else {
     scene.surface = cells_surface(solid, positions);
     scene.surface.wire.clear();
     scene.draw_surface = false;
     add_lines(scene, solid, positions, request.style == PictureStyle::boundary_wireframe);
   }
-  if (!request.field.empty() && !request.underlay) add_field(scene, document, request, positions, kept);
+  if (!request.field.empty() && !request.underlay) add_field(scene, body, request, positions, kept);
+  if (request.cell_kinds) show_cell_kinds(scene, solid);
   if (request.frames) {
     add_frames(scene, document, *request.frames, kept);
     scene.draw_surface = false;
@@ -219,15 +274,14 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
     scene.draw_surface = false;
   }
   if (request.overlay_rest)
-    add_overlay(scene,
-                surface_mesh(
-                    solid, document.state().level == 0 ? document.rest() : document.surface_nodes(document.rest())),
-                request.springs ? "at rest" : "");
+    add_overlay(scene, surface_mesh(solid, body.nodes(document.rest())), request.springs ? "at rest" : "");
   if (request.overlay) add_overlay(scene, *request.overlay);
   if (request.cage) add_cage(scene, document.solid(), document.positions());
   if (request.line) add_material_line(scene, document, *request.line);
   add_obstacles(scene, document);
-  if (request.marks) add_marks(scene, document, request, positions);
+  if (request.marks) add_marks(scene, body, request, positions);
+  if (request.marks && request.curve_handles.size() > 1) add_curve(scene, document, request.curve_handles);
+  if (request.felt) scene.felt = felt_force(request);
   if (request.underlay) {
     lay_under(scene, *request.underlay, request.field, request.underlay_wires);
     apply_range(scene, request);

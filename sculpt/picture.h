@@ -40,7 +40,12 @@ struct PictureRequest {
   bool underlay_wires = false;                   // and with its own edges
   bool springs = false;                          // those of the model, in place of surface and wires
   std::optional<std::array<Eigen::Vector3d, 2>> line;  // ends of a material line, at rest
-  int net_steps = 4;  // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
+  int smooth = 0;                                      // refined so many times more, for the picture only
+  std::optional<double> shrink;                        // every cell by itself, of this size
+  bool cell_kinds = false;                             // and coloured by its kind
+  std::vector<Eigen::Vector3d> curve_handles;          // of a curve on the surface [m]; fewer than two: none
+  std::optional<double> felt;  // [N] at which the ground has full colour; the tool's force fills it
+  int net_steps = 4;           // 1: the cell, 2: and its face neighbours, 3: edge, 4: vertex neighbours
 };
 
 /// @throws Error (bad_input) for a cell or vertex that is not there, a cell without a net, a volume without a

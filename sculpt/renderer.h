@@ -32,8 +32,9 @@ struct SceneLabel {
   Eigen::Vector3f at;
   std::string text;
 };
-/// viridis for magnitudes; cividis for material; balanced (blue, white, red) for what has a sign, white at 0.
-enum class ColourMap { viridis, cividis, balanced };
+/// viridis for magnitudes; cividis for material; balanced (blue, white, red) for what has a sign, white at 0;
+/// green_red from soft to stiff as in papers/004, Fig. 8; kinds: one colour for each whole number.
+enum class ColourMap { viridis, cividis, balanced, green_red, kinds };
 
 /// low and high are in the unit of the values. Numbers are written with their unit: 12e3 "Pa" as 12 kPa; with the
 /// unit "%" fractions are written as per cent (0.12: 12 %).
@@ -41,6 +42,7 @@ struct SceneLegend {
   std::string title, unit;
   double low = 0, high = 1;
   ColourMap map = ColourMap::viridis;
+  std::vector<std::string> names{};  // of kinds, which range from 0 to 10: a list in place of the bar
 };
 
 /// Lines over the picture, what lies behind the surface faintly.
@@ -54,7 +56,8 @@ enum class LineLook {
   edge_spring,
   face_spring,
   inner_spring,
-  material_line
+  material_line,
+  curve
 };
 struct SceneLines {
   LineLook look = LineLook::overlay;
@@ -80,6 +83,13 @@ struct SceneObstacle {
   bool is_ground = false;  // drawn beneath the body where it faces the eye, and not framed
 };
 
+/// What the hand feels: the ground of the picture takes colour with it, grey at 0 and full at 1, and the text
+/// stands at its foot.
+struct SceneFelt {
+  double share = 0;
+  std::string text;
+};
+
 struct Scene {
   SceneSurface surface;  // the boundary, or with a clip plane the faces of the cells kept
   std::vector<std::array<Eigen::Vector3f, 2>> cage_lines;
@@ -88,8 +98,10 @@ struct Scene {
   std::vector<Eigen::Vector3f> pins;
   std::vector<SceneLines> lines;
   std::vector<SceneObstacle> obstacles;
-  std::optional<SceneVolume> volume;  // instead of the surface; with a legend
-  std::vector<SceneLabel> labels;     // drawn with a small dot and a halo
+  std::optional<SceneVolume> volume;       // instead of the surface; with a legend
+  std::vector<SceneLabel> labels;          // drawn with a small dot and a halo
+  std::vector<Eigen::Vector3f> handles{};  // of a curve
+  std::optional<SceneFelt> felt{};
   std::optional<SceneLegend> legend;  // with values: its map between low and high
   bool draw_surface = true;
   /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty: none.
@@ -103,7 +115,10 @@ struct PictureOptions {
   bool wireframe = true;
   bool contact_shadow = true;
   bool light_theme = false;
-  int samples = 4;  // a pixel, on a square grid: 1, 4, 9 or 16
+  int samples = 4;      // a pixel, on a square grid: 1, 4, 9 or 16
+  std::string title{};  // above the picture, at the left
+  std::optional<std::array<Eigen::Vector3f, 2>>
+      frame{};  // corners of a box that is framed instead of the scene [m]
 };
 
 struct Picture {

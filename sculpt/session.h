@@ -38,7 +38,8 @@ struct MeasureRecord {
 };
 
 struct ToolForce {
-  Eigen::Vector3d at, force;  // [m], [N]
+  Eigen::Vector3d at, force;                     // where [m], and on the body [N]
+  std::vector<Eigen::Vector3d> curve_handles{};  // of a curve, where they are then [m]
 };
 
 /// An `expect` that did not hold.
@@ -86,8 +87,8 @@ class Session {
 
   Document& document() { return document_; }
   const Document& document() const { return document_; }
-  /// The force of the last stroke where it held the body, until anything else changes: for pictures, not part of
-  /// the state.
+  /// The force of the last stroke where it held the body, or of a probe as deep as it pressed, until anything else
+  /// changes: for pictures and measures, not part of the state.
   const std::optional<ToolForce>& tool_force() const { return tool_force_; }
   void show_tool_force(const ToolForce& force) { tool_force_ = force; }
   const SessionOptions& options() const { return options_; }

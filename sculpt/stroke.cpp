@@ -188,7 +188,13 @@ std::string Stroke::finish() {
   if (probe_) {  // changes nothing, so that there is nothing to undo
     read();
     session_.print(report());
-    if (reading_) session_.measured("felt_stiffness", reading_->stiffness);
+    if (reading_) {
+      session_.measured("felt_stiffness", reading_->stiffness);
+      // As a device feels it: the plane that it was sent, as deep as it presses.
+      const double depth = std::max(0.0, reading_->normal.dot(reading_->at - pose_.position));
+      const double felt = depth > 0 ? std::min(depth * reading_->stiffness, tool_.largest_force) : 0;
+      session_.show_tool_force({reading_->at, -felt * reading_->normal});
+    }
     return line();
   }
   paint();
@@ -199,7 +205,15 @@ std::string Stroke::finish() {
   session_.print(report());
   const StrokeForce now = force();
   session_.change(std::move(next));
-  if (!tools_.empty()) session_.show_tool_force({now.at, now.force});
+  if (!tools_.empty()) {
+    ToolForce shown{now.at, now.force, options_.curve};
+    if (!shown.curve_handles.empty()) {
+      Eigen::Vector3d& moved = shown.curve_handles[options_.handle];
+      moved += pose_.position - path_.front().pose.position;
+      shown.at = moved;
+    }
+    session_.show_tool_force(shown);
+  }
   return line();
 }
 

@@ -29,5 +29,6 @@ std::vector<Command> recording_commands();   // record
 std::vector<Command> render_commands();      // render
 std::vector<Command> sampling_commands();    // sample plot
 std::vector<Command> obstacle_commands();    // obstacle plasticity
+std::vector<Command> panel_commands();       // panels
 
 }  // namespace argil::sculpt

@@ -24,6 +24,7 @@ double measured_value(const Session& session, const Arguments& arguments) {
   if (arguments.has("at")) query.at = arguments.vector("at");
   const auto reference = reference_of(session, arguments);
   query.reference = reference.get();
+  if (session.tool_force()) query.tool_force = session.tool_force()->force.norm();
   return measure(session.document(), query);
 }
 

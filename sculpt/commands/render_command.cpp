@@ -46,9 +46,10 @@ void read_field(const Session& session, const Arguments& arguments, PictureReque
   }
   if (arguments.has("colours")) {
     const std::string& map = arguments.word("colours");
-    request.colours = map == "cividis"    ? ColourMap::cividis
-                      : map == "balanced" ? ColourMap::balanced
-                                          : ColourMap::viridis;
+    request.colours = map == "cividis"     ? ColourMap::cividis
+                      : map == "balanced"  ? ColourMap::balanced
+                      : map == "green_red" ? ColourMap::green_red
+                                           : ColourMap::viridis;
     if (request.field.empty())
       throw Error(ErrorCode::bad_input, "colours are those of a field; add `field strain`");
   }
@@ -124,6 +125,38 @@ void read_cells(const Arguments& arguments, PictureRequest& request) {
                                                   : PictureStyle::solid;
 }
 
+/// Finer for the picture only.
+void read_smooth(const Session& session, const Arguments& arguments, PictureRequest& request) {
+  request.smooth = static_cast<int>(arguments.integer("smooth", 0));
+  if (request.smooth == 0) return;
+  for (const char* other : {"frames", "corner", "net", "springs", "shrink", "cell_kinds"})
+    if (arguments.has(other))
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("{0} shows the elements as they are simulated; leave out smooth or {0}", other));
+  const int level = session.document().state().level + request.smooth;
+  check_cells(session, static_cast<double>(subdiv::refined_cell_count(session.document().solid(), level)));
+}
+
+/// Every cell by itself.
+void read_separate_cells(const Arguments& arguments, PictureRequest& request) {
+  request.cell_kinds = arguments.has("cell_kinds");
+  if (arguments.has("shrink")) request.shrink = arguments.number("shrink");
+  if (!request.cell_kinds && !request.shrink) return;
+  const std::string what = request.shrink ? "shrink" : "cell_kinds";
+  for (const char* other : {"volume", "underlay", "frames", "style", "corner", "net", "springs"})
+    if (arguments.has(other))
+      throw Error(
+          ErrorCode::bad_input,
+          fmt::format("{0} draws the cells, {1} something in their place; leave out {0} or {1}", what, other));
+  if (arguments.word("wire", "cells") == "control")
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{0} shows every cell with its own edges; leave out `wire control` "
+                            "or {0}",
+                            what));
+  if (request.cell_kinds && !request.field.empty())
+    throw Error(ErrorCode::bad_input, "cells have one colour; leave out field or cell_kinds");
+}
+
 PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
   if (arguments.has("from") && arguments.vector("from").isZero(0))
     throw Error(ErrorCode::bad_input, "the direction to the eye is zero; `from 0 -1 0` looks at the front");
@@ -131,6 +164,14 @@ PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
   if (arguments.has("size")) {
     options.width = static_cast<int>(arguments.numbers("size")[0]);
     options.height = static_cast<int>(arguments.numbers("size")[1]);
+  }
+  options.title = arguments.word("title", "");
+  if (arguments.has("frame")) {
+    const std::vector<double>& box = arguments.numbers("frame");
+    if (box[0] == box[3] && box[1] == box[4] && box[2] == box[5])
+      throw Error(ErrorCode::bad_input, "the two corners of the frame are the same; `frame 0 0 0 1 1 1` is a cube");
+    options.frame = {Eigen::Vector3d(box[0], box[1], box[2]).cast<float>(),
+                     Eigen::Vector3d(box[3], box[4], box[5]).cast<float>()};
   }
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
@@ -167,9 +208,15 @@ RenderRequest read_render(const Session& session, const Arguments& arguments) {
   read_field(session, arguments, request.picture);
   read_lines(session, arguments, request.picture);
   read_cells(arguments, request.picture);
+  read_smooth(session, arguments, request.picture);
+  read_separate_cells(arguments, request.picture);
   request.picture.cage = arguments.has("cage");
   request.picture.marks = !arguments.has("plain");
-  if (session.tool_force()) request.picture.tool_force = {session.tool_force()->at, session.tool_force()->force};
+  if (session.tool_force()) {
+    request.picture.tool_force = {session.tool_force()->at, session.tool_force()->force};
+    request.picture.curve_handles = session.tool_force()->curve_handles;
+  }
+  if (arguments.has("felt")) request.picture.felt = arguments.number("felt");
   request.options = read_view(arguments, request.picture);
   request.beside = arguments.has("beside");
   return request;
@@ -200,8 +247,9 @@ std::vector<Command> render_commands() {
             {.name = "range", .help = "of the colours; else that of what is shown", .count = 2},
             {.name = "colours",
              .type = ArgumentType::word,
-             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis",
-             .choices = {"viridis", "cividis", "balanced"}},
+             .help = "else balanced (blue, white, red) for what has a sign, cividis for material, viridis; "
+                     "green_red: from soft to stiff",
+             .choices = {"viridis", "cividis", "balanced", "green_red"}},
             reference_parameter(),
             {.name = "volume",
              .help = "the field inside as a translucent volume, in place of the surface",
@@ -240,14 +288,33 @@ std::vector<Command> render_commands() {
              .type = ArgumentType::word,
              .help = "how",
              .choices = {"solid", "wireframe", "boundary_wireframe"}},
+            {.name = "smooth",
+             .type = ArgumentType::integer,
+             .help = "refined so many times more, for this picture only",
+             .low = 0,
+             .high = 4},
+            {.name = "shrink",
+             .help = "every cell by itself, drawn about its middle to this part of its size",
+             .low = 0.01,
+             .high = 1},
+            {.name = "cell_kinds",
+             .help = "every cell by itself, coloured by what decides its element: regular (it has a net of 64), "
+                     "extraordinary, irregular (no hexahedron)",
+             .flag = true},
             {.name = "cage", .help = "with the control cage", .flag = true},
             {.name = "beside", .help = "the cage alone beside it, in the left half", .flag = true},
-            {.name = "plain", .help = "without arrows and pins", .flag = true},
+            {.name = "plain", .help = "without arrows, pins and the curve of a stroke", .flag = true},
             {.name = "wire",
              .type = ArgumentType::word,
              .help = "edges drawn: of the finest cells, of the control cells, none",
              .choices = {"cells", "control", "none"}},
             {.name = "light", .help = "on light ground", .flag = true},
+            {.name = "felt",
+             .help = "the ground takes colour by the force of the last stroke, all of it at this force",
+             .unit = "N",
+             .low = 1e-9,
+             .high = 1e12},
+            {.name = "title", .type = ArgumentType::text, .help = "above the picture"},
             {.name = "size",
              .type = ArgumentType::integer,
              .help = "width and height",
@@ -256,6 +323,14 @@ std::vector<Command> render_commands() {
              .low = 1,
              .high = 4096},
             {.name = "from", .help = "direction from the solid to the eye", .count = 3},
+            {.name = "frame",
+             .help = "two corners of a box that fills the picture, whatever else is there: for pictures of one "
+                     "scale; else the "
+                     "solid, arrows and legend",
+             .unit = "m",
+             .count = 6,
+             .low = -1e9,
+             .high = 1e9},
             {.name = "zoom", .help = "1 shows everything", .low = 0.01, .high = 1000},
             {.name = "net",
              .type = ArgumentType::integer,

@@ -271,6 +271,7 @@ const std::vector<BadLine> k_bad_lines = {
     {"remove where x < 9", ErrorCode::bad_topology, "no cell"},
     {"remove where x > 9", ErrorCode::bad_input, "no cells fit"},
     {"remove where boundary + 1", ErrorCode::bad_input, "", "input:1:14"},
+    {"panels a.jpg \"b.png\"", ErrorCode::bad_input, ".png"},
     {"plot a.svg displacement_z", ErrorCode::bad_input, "nothing has been sampled"},
     {"sample a.csv from 0 0 0 to 0 0 0", ErrorCode::bad_input, "both ends"},
     {"sample a.csv from 9 0 0 to 0 0 0", ErrorCode::bad_input, "not inside the solid"},

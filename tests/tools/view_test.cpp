@@ -226,6 +226,112 @@ TEST(View, FieldColoursFollowTheValues) {
   EXPECT_GT(low[2], 3 * low[1]);  // violet
 }
 
+/// How far a pixel is from grey.
+int chroma(const Picture& picture, int x, int y) {
+  const std::uint8_t* p = &picture.rgba[4 * static_cast<std::size_t>(y * picture.width + x)];
+  return std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]});
+}
+
+TEST(View, TheGroundIsTheMoreSaturatedTheMoreIsFelt) {
+  Scene scene = scene_of(subdiv::box_grid(2, 1, 1, {2, 1, 1}));
+  for (const bool light : {false, true}) {
+    PictureOptions how = options(200, 150);
+    how.light_theme = light;
+    int before_above = -1, before_below = -1;
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      scene.felt = sculpt::SceneFelt{share, ""};
+      const Picture picture = renderer().render(scene, how);
+      EXPECT_GT(chroma(picture, 3, 3), before_above + 3) << share;
+      EXPECT_GT(chroma(picture, 3, 146), before_below + 3) << share;
+      before_above = chroma(picture, 3, 3);
+      before_below = chroma(picture, 3, 146);
+    }
+    EXPECT_GT(before_above, 120);
+    scene.felt = sculpt::SceneFelt{0.0, ""};
+    const Picture none = renderer().render(scene, how);
+    scene.felt.reset();
+    EXPECT_EQ(chroma(none, 3, 3), chroma(renderer().render(scene, how), 3, 3));
+    scene.felt = sculpt::SceneFelt{7.0, ""};  // more than all is all
+    EXPECT_EQ(chroma(renderer().render(scene, how), 3, 3), before_above);
+  }
+}
+
+TEST(View, AFrameHoldsTheCameraWhateverTheSceneDoes) {
+  const Scene small = scene_of(subdiv::box_grid(1, 1, 1, {1, 1, 1}));
+  Scene large = small;
+  large.cage_points.push_back({4, 4, 4});
+  PictureOptions how = options(120, 100);
+  EXPECT_NE(covered_box(renderer().render(small, how)), covered_box(renderer().render(large, how)));
+  how.frame = {Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(2, 2, 2)};
+  const auto framed = covered_box(renderer().render(small, how)), same = covered_box(renderer().render(large, how));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(framed[i], same[i], 1);
+  how.frame = {Eigen::Vector3f(1, 1, 1), Eigen::Vector3f(1, 1, 1)};
+  EXPECT_EQ(error_of(small, how), ErrorCode::bad_input);
+}
+
+TEST(View, TitleAndForceAreWrittenInCornersThatStayFree) {
+  Scene scene = scene_of(subdiv::box_grid(2, 1, 1, {2, 1, 1}));
+  PictureOptions how = options(400, 300);
+  const auto differs = [&](const Picture& a, const Picture& b, int top, int bottom) {
+    int count = 0;
+    for (int y = top; y < bottom; ++y)
+      for (int x = 0; x < 200; ++x)
+        if (a.rgba[4 * static_cast<std::size_t>(y * 400 + x)] != b.rgba[4 * static_cast<std::size_t>(y * 400 + x)])
+          ++count;
+    return count;
+  };
+  how.title = " ";
+  scene.felt = sculpt::SceneFelt{0, ""};
+  const Picture without = renderer().render(scene, how);
+  how.title = "title";
+  const Picture titled = renderer().render(scene, how);
+  EXPECT_GT(differs(without, titled, 0, 45), 50);
+  EXPECT_EQ(differs(without, titled, 45, 300), 0);
+  how.title = " ";
+  scene.felt->text = "felt 3 N";
+  const Picture felt = renderer().render(scene, how);
+  EXPECT_GT(differs(without, felt, 260, 300), 50);
+  EXPECT_EQ(differs(without, felt, 0, 260), 0);
+  const auto box = covered_box(titled);
+  EXPECT_GT(box[1], 40);
+  EXPECT_LT(box[3], 265);
+}
+
+TEST(View, KindsAreColouredExactlyAndNamedInAList) {
+  Scene scene = scene_of(subdiv::box_grid(1, 1, 1, {1, 1, 1}));
+  scene.surface.values.assign(scene.surface.positions.size(), 2);
+  scene.legend = sculpt::SceneLegend{"cells", "", 0, 10, sculpt::ColourMap::kinds, {"regular", "", "irregular"}};
+  const Picture picture = renderer().render(scene, options(500, 400));
+  const auto has = [&](const std::array<float, 3>& wanted, int left, int right) {
+    for (int y = 0; y < 400; ++y)
+      for (int x = left; x < right; ++x) {
+        const std::uint8_t* p = &picture.rgba[4 * static_cast<std::size_t>(y * 500 + x)];
+        if (std::abs(p[0] - 255 * wanted[0]) < 2 && std::abs(p[1] - 255 * wanted[1]) < 2 &&
+            std::abs(p[2] - 255 * wanted[2]) < 2)
+          return true;
+      }
+    return false;
+  };
+  EXPECT_TRUE(has(k_kinds[0], 460, 500));
+  EXPECT_FALSE(has(k_kinds[1], 460, 500));  // without a name it is not in the list
+  EXPECT_TRUE(has(k_kinds[2], 460, 500));
+  for (std::size_t a = 0; a < k_map_size; ++a)
+    for (std::size_t b = a + 1; b < k_map_size; ++b)
+      EXPECT_GT(
+          std::hypot(k_kinds[a][0] - k_kinds[b][0], k_kinds[a][1] - k_kinds[b][1], k_kinds[a][2] - k_kinds[b][2]),
+          0.15F);
+}
+
+TEST(Colours, GreenMeansSoftAndRedStiff) {
+  const Colour soft = field_colour(k_green_red, 0), middle = field_colour(k_green_red, 0.5),
+               stiff = field_colour(k_green_red, 1);
+  EXPECT_GT(soft.green, 2 * soft.red);
+  EXPECT_GT(stiff.red, 4 * stiff.green);
+  const auto lightness = [](const Colour& c) { return 0.2126F * c.red + 0.7152F * c.green + 0.0722F * c.blue; };
+  EXPECT_GT(lightness(middle), 1.5F * lightness(soft));
+  EXPECT_GT(lightness(soft), 1.3F * lightness(stiff));
+}
+
 TEST(ShowField, AFieldThatIsTheSameEverywhereGetsOneColour) {
   // Rounding in the last digits must not be stretched over the whole range of colours.
   sculpt::Scene scene;

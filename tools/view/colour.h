@@ -25,38 +25,70 @@ struct Theme {
   Colour wire_on_clay, wire_on_field, wire_alone;
   Colour arrow, arrow_outline, pin, pin_outline;
   Colour overlay, axis_u, axis_v, axis_w, side, rest_side;
-  Colour edge_spring, face_spring, inner_spring, material_line;
+  Colour edge_spring, face_spring, inner_spring, material_line, curve, handle, felt;
   float shadow;  // opacity
   Colour obstacle;
 };
 
-inline constexpr Theme k_dark_theme{colour(0x2B2F36),        colour(0x171A1E),
-                                    colour(0xE6E8EB),        colour(0xA9AEB6),
-                                    colour(0x14171A, 0.85F), colour(0x8FB6E0, 0.62F),
-                                    colour(0x93BDEB),        colour(0x1A1D21),
-                                    colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F),
-                                    colour(0xE0B79A, 0.55F), colour(0xF0A93C),
-                                    colour(0x2A1604, 0.85F), colour(0x5BD0CB),
-                                    colour(0x0E2A2A, 0.9F),  colour(0xF2EDE4, 0.70F),
-                                    colour(0xF0655A),        colour(0x7CCB5B),
-                                    colour(0x5AA2F5),        colour(0xF0A93C),
-                                    colour(0x5BD0CB),        colour(0xF2EDE4),
-                                    colour(0x4FB6E8),        colour(0xF0A93C),
-                                    colour(0xFF7AB8),        0.85F,
+inline constexpr Theme k_dark_theme{colour(0x2B2F36),
+                                    colour(0x171A1E),
+                                    colour(0xE6E8EB),
+                                    colour(0xA9AEB6),
+                                    colour(0x14171A, 0.85F),
+                                    colour(0x8FB6E0, 0.62F),
+                                    colour(0x93BDEB),
+                                    colour(0x1A1D21),
+                                    colour(0x2A0F04, 0.50F),
+                                    colour(0x0B1014, 0.38F),
+                                    colour(0xE0B79A, 0.55F),
+                                    colour(0xF0A93C),
+                                    colour(0x2A1604, 0.85F),
+                                    colour(0x5BD0CB),
+                                    colour(0x0E2A2A, 0.9F),
+                                    colour(0xF2EDE4, 0.70F),
+                                    colour(0xF0655A),
+                                    colour(0x7CCB5B),
+                                    colour(0x5AA2F5),
+                                    colour(0xF0A93C),
+                                    colour(0x5BD0CB),
+                                    colour(0xF2EDE4),
+                                    colour(0x4FB6E8),
+                                    colour(0xF0A93C),
+                                    colour(0xFF7AB8),
+                                    colour(0xA6ECFF),
+                                    colour(0xFFE9A8),
+                                    colour(0x2350D8),
+                                    0.85F,
                                     colour(0x9AA3AD, 0.46F)};
-inline constexpr Theme k_light_theme{colour(0xF7F8FA),        colour(0xDCE0E5),
-                                     colour(0x1E2126),        colour(0x5A616B),
-                                     colour(0xFFFFFF, 0.85F), colour(0x3F6FA6, 0.65F),
-                                     colour(0x3F78B8),        colour(0xFFFFFF),
-                                     colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F),
-                                     colour(0x7A4326, 0.60F), colour(0xE8961E),
-                                     colour(0x3A1D02, 0.85F), colour(0x139A94),
-                                     colour(0xFFFFFF, 0.9F),  colour(0x1E2126, 0.70F),
-                                     colour(0xC7352B),        colour(0x3C8A1F),
-                                     colour(0x2166C4),        colour(0xC9760A),
-                                     colour(0x0B807B),        colour(0x2B2F36),
-                                     colour(0x1F7FB8),        colour(0xC9760A),
-                                     colour(0xB8246F),        0.40F,
+inline constexpr Theme k_light_theme{colour(0xF7F8FA),
+                                     colour(0xDCE0E5),
+                                     colour(0x1E2126),
+                                     colour(0x5A616B),
+                                     colour(0xFFFFFF, 0.85F),
+                                     colour(0x3F6FA6, 0.65F),
+                                     colour(0x3F78B8),
+                                     colour(0xFFFFFF),
+                                     colour(0x2A0F04, 0.50F),
+                                     colour(0x0B1014, 0.38F),
+                                     colour(0x7A4326, 0.60F),
+                                     colour(0xE8961E),
+                                     colour(0x3A1D02, 0.85F),
+                                     colour(0x139A94),
+                                     colour(0xFFFFFF, 0.9F),
+                                     colour(0x1E2126, 0.70F),
+                                     colour(0xC7352B),
+                                     colour(0x3C8A1F),
+                                     colour(0x2166C4),
+                                     colour(0xC9760A),
+                                     colour(0x0B807B),
+                                     colour(0x2B2F36),
+                                     colour(0x1F7FB8),
+                                     colour(0xC9760A),
+                                     colour(0xB8246F),
+                                     colour(0x0B5FA8),
+                                     colour(0xFFE08A),
+                                     colour(0x3D7BFF),
+                                     0.40F,
                                      colour(0x7D8791, 0.46F)};
 
 constexpr Colour line_colour(sculpt::LineLook look, const Theme& theme) {
@@ -79,6 +111,8 @@ constexpr Colour line_colour(sculpt::LineLook look, const Theme& theme) {
       return theme.inner_spring;
     case sculpt::LineLook::material_line:
       return theme.material_line;
+    case sculpt::LineLook::curve:
+      return theme.curve;
     case sculpt::LineLook::overlay:
       break;
   }
@@ -111,12 +145,28 @@ inline constexpr MapColours k_balanced{
      std::array{0.870395F, 0.432287F, 0.391293F}, std::array{0.752522F, 0.246116F, 0.219703F},
      std::array{0.600493F, 0.001672F, 0.051721F}}};
 
+/// From green by yellow to red, lightest in the middle, so that both ends are told apart without colour as well.
+inline constexpr MapColours k_green_red{
+    {std::array{0.055F, 0.480F, 0.210F}, std::array{0.160F, 0.560F, 0.230F}, std::array{0.290F, 0.640F, 0.250F},
+     std::array{0.450F, 0.715F, 0.275F}, std::array{0.640F, 0.775F, 0.300F}, std::array{0.860F, 0.810F, 0.320F},
+     std::array{0.930F, 0.700F, 0.270F}, std::array{0.940F, 0.570F, 0.225F}, std::array{0.915F, 0.425F, 0.190F},
+     std::array{0.860F, 0.270F, 0.155F}, std::array{0.760F, 0.090F, 0.120F}}};
+inline constexpr MapColours k_kinds{
+    {std::array{0.310F, 0.608F, 0.910F}, std::array{0.910F, 0.690F, 0.310F}, std::array{0.878F, 0.341F, 0.290F},
+     std::array{0.420F, 0.749F, 0.349F}, std::array{0.643F, 0.467F, 0.839F}, std::array{0.310F, 0.788F, 0.769F},
+     std::array{0.910F, 0.537F, 0.722F}, std::array{0.690F, 0.627F, 0.541F}, std::array{0.788F, 0.820F, 0.310F},
+     std::array{0.478F, 0.545F, 0.659F}, std::array{0.949F, 0.929F, 0.894F}}};
+
 constexpr const MapColours& map_colours(sculpt::ColourMap map) {
   switch (map) {
     case sculpt::ColourMap::cividis:
       return k_cividis;
     case sculpt::ColourMap::balanced:
       return k_balanced;
+    case sculpt::ColourMap::green_red:
+      return k_green_red;
+    case sculpt::ColourMap::kinds:
+      return k_kinds;
     default:
       return k_viridis;
   }

@@ -13,9 +13,30 @@ namespace {
 constexpr float k_title_size = 14, k_tick_size = 13, k_bar_width = 18, k_right = 26, k_gap = 9, k_top = 62;
 constexpr float k_bar_height = 250;
 constexpr float k_stroke = 30;  // of the key, long
+constexpr float k_swatch = 16, k_row = 24;
+constexpr float k_heading_size = 19;
 
 float bar_height(float pixel, int height) {
   return std::min(k_bar_height * pixel, 0.55F * static_cast<float>(height));
+}
+
+float legend_height(const sculpt::SceneLegend& legend, float pixel, int height) {
+  const auto rows =
+      std::count_if(legend.names.begin(), legend.names.end(), [](const auto& n) { return !n.empty(); });
+  return rows > 0 ? k_row * pixel * static_cast<float>(rows) : bar_height(pixel, height);
+}
+
+void draw_kinds(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme& theme, float pixel, float right) {
+  const float size = k_swatch * pixel;
+  float y = k_top * pixel;
+  for (std::size_t kind = 0; kind < std::min(legend.names.size(), k_map_size); ++kind) {
+    if (legend.names[kind].empty()) continue;
+    const auto& c = map_colours(legend.map)[kind];
+    canvas.bar(right - size, y, size, size, 3 * pixel, [&](float) { return Colour{c[0], c[1], c[2], 1}; });
+    canvas.text(right - size - k_gap * pixel, y + 0.5F * size + 0.36F * k_tick_size * pixel, k_tick_size * pixel,
+                legend.names[kind], theme.text, Align::right);
+    y += k_row * pixel;
+  }
 }
 
 }  // namespace
@@ -40,6 +61,8 @@ std::vector<Tick> legend_ticks(const sculpt::SceneLegend& legend, int most) {
 
 double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width) {
   float text = 0;
+  for (const std::string& name : legend.names) text = std::max(text, font.width(name, k_tick_size * pixel));
+  if (text > 0) return static_cast<double>(text + (k_right + k_swatch + k_gap + 20) * pixel) / width;
   for (const Tick& tick : legend_ticks(legend, sculpt::k_legend_parts))
     text = std::max(text, font.width(tick.text, k_tick_size * pixel));
   const float beside = text + (k_right + k_bar_width + k_gap + 20) * pixel;
@@ -51,6 +74,11 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
   const float tall = bar_height(pixel, height), bar_width = k_bar_width * pixel;
   const float top = std::round(k_top * pixel);
   const float right = std::round(static_cast<float>(width) - k_right * pixel), left = std::round(right - bar_width);
+  if (!legend.names.empty()) {
+    canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
+    draw_kinds(canvas, legend, theme, pixel, right);
+    return;
+  }
   canvas.bar(left, top, right - left, tall, 3 * pixel,
              [&](float y) { return field_colour(map_colours(legend.map), 1 - y); });
   canvas.text(right, top - 14 * pixel, k_title_size * pixel, legend.title, theme.text, Align::right);
@@ -67,6 +95,15 @@ void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme&
   }
 }
 
+void draw_title(Canvas& canvas, const std::string& title, const Theme& theme, float pixel) {
+  canvas.text(k_right * pixel, 46 * pixel, k_heading_size * pixel, title, theme.text);
+}
+
+void draw_felt(Canvas& canvas, const sculpt::SceneFelt& felt, const Theme& theme, float pixel, int height) {
+  canvas.text(k_right * pixel, static_cast<float>(height) - 28 * pixel, k_heading_size * pixel, felt.text,
+              theme.text);
+}
+
 double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int width) {
   float text = 0;
   for (const sculpt::SceneLines& lines : scene.lines)
@@ -77,7 +114,7 @@ double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int 
 void draw_key(Canvas& canvas, const sculpt::Scene& scene, const Theme& theme, float pixel, int width, int height) {
   const float right = std::round(static_cast<float>(width) - k_right * pixel), left = right - k_stroke * pixel;
   float y = k_top * pixel;
-  if (scene.legend) y += bar_height(pixel, height) + 30 * pixel;
+  if (scene.legend) y += legend_height(*scene.legend, pixel, height) + 30 * pixel;
   for (const sculpt::SceneLines& lines : scene.lines) {
     if (lines.name.empty()) continue;
     const Colour tint = line_colour(lines.look, theme);

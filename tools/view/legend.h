@@ -22,8 +22,14 @@ struct Tick {
 /// Part of the picture's width that the legend takes on the right, at this size of a pixel (1 at 1280 x 800).
 [[nodiscard]] double legend_width(const sculpt::SceneLegend& legend, const Font& font, float pixel, int width);
 
+/// Of kinds a list instead.
 void draw_legend(Canvas& canvas, const sculpt::SceneLegend& legend, const Theme& theme, float pixel, int width,
                  int height);
+
+/// Above the picture, at the left.
+void draw_title(Canvas& canvas, const std::string& title, const Theme& theme, float pixel);
+/// At its foot, at the left.
+void draw_felt(Canvas& canvas, const sculpt::SceneFelt& felt, const Theme& theme, float pixel, int height);
 
 /// Part of the picture's width that the key takes on the right; 0 if no lines have a name.
 [[nodiscard]] double key_width(const sculpt::Scene& scene, const Font& font, float pixel, int width);

@@ -31,11 +31,24 @@ void check(const sculpt::PictureOptions& options) {
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected a zoom between 0.01 and 1000, found {}; 1 shows the whole scene", options.zoom));
+  if (options.frame && !((*options.frame)[0].allFinite() && (*options.frame)[1].allFinite() &&
+                         ((*options.frame)[1] - (*options.frame)[0]).norm() > 0))
+    throw Error(ErrorCode::bad_input,
+                "expected a frame with two different finite corners, found none; give it as six numbers such as "
+                "0 0 0 1 1 1");
   if (!options.view_from.allFinite() || !(options.view_from.norm() > 1e-100) || options.view_from.norm() > 1e100)
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected a direction to look from, found {} {} {}; give three numbers such as 1 -1.6 0.9",
                     options.view_from.x(), options.view_from.y(), options.view_from.z()));
+}
+
+std::vector<Eigen::Vector3f> corners_of(const std::array<Eigen::Vector3f, 2>& box) {
+  std::vector<Eigen::Vector3f> corners;
+  for (const Eigen::Vector3f& a : box)
+    for (const Eigen::Vector3f& b : box)
+      for (const Eigen::Vector3f& c : box) corners.emplace_back(a.x(), b.y(), c.z());
+  return corners;
 }
 
 void check_volume(const sculpt::SceneVolume& volume, bool has_legend) {
@@ -69,6 +82,7 @@ std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   for (std::size_t i = 0; i < scene.cage_points.size(); ++i) add(scene.cage_points[i], "cage point", i);
   for (std::size_t i = 0; i < scene.arrows.size(); ++i)
     for (const Eigen::Vector3f& end : {scene.arrows[i].from, scene.arrows[i].to}) add(end, "arrow", i);
+  for (std::size_t i = 0; i < scene.handles.size(); ++i) add(scene.handles[i], "handle", i);
   for (std::size_t i = 0; i < scene.pins.size(); ++i) add(scene.pins[i], "pin", i);
   for (std::size_t i = 0; i < scene.lines.size(); ++i)
     for (const auto& ends : scene.lines[i].lines)
@@ -106,6 +120,7 @@ class OffscreenRenderer final : public sculpt::Renderer {
     check(options);
     std::vector<Eigen::Vector3f> positions = places(scene);
     const Place place = place_of(positions);
+    if (options.frame) positions = corners_of(*options.frame);
     for (Eigen::Vector3f& position : positions) position = place(position);
 
     const float small =
@@ -113,8 +128,9 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const float pixel = std::clamp(small, 0.75F, 5.0F);
     const bool has_room = options.width >= 160 && options.height >= 120;  // for legend and key
     const bool has_legend = scene.legend && has_room;
-    Margins free = margins(scene, options, pixel, has_legend);
-    if (has_room) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
+    // A frame says itself what must be seen, so that pictures of one frame have one scale.
+    Margins free = options.frame ? Margins{} : margins(scene, options, pixel, has_legend);
+    if (has_room && !options.frame) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
     const Camera camera = framing_camera(positions, options, free);
 
     context_.make_current();
@@ -142,6 +158,8 @@ class OffscreenRenderer final : public sculpt::Renderer {
                    is_hidden(camera, at, pixel_at, depths, sampling));
       }
     }
+    if (has_room && !options.title.empty()) draw_title(canvas, options.title, theme, pixel);
+    if (has_room && scene.felt) draw_felt(canvas, *scene.felt, theme, pixel, picture.height);
     if (has_legend) draw_legend(canvas, *scene.legend, theme, pixel, picture.width, picture.height);
     if (has_room) draw_key(canvas, scene, theme, pixel, picture.width, picture.height);
     return picture;
@@ -160,6 +178,8 @@ class OffscreenRenderer final : public sculpt::Renderer {
       free.top += 8 * pixel_y;
     }
     if (!scene.pins.empty()) free.bottom += 18 * pixel_y;
+    if (!options.title.empty()) free.top += 30 * pixel_y;
+    if (scene.felt) free.bottom += 30 * pixel_y;
     return free;
   }
 

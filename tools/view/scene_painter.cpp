@@ -15,6 +15,7 @@ constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
 constexpr float k_hidden_pin = 0.32F;
 constexpr float k_wire_in_volume = 0.45F;
+constexpr float k_felt_below = 0.6F;  // of the force's colour, at the foot of the background
 // Shorter lines fade, so that a fine mesh does not cover what it lies on [pixels].
 constexpr float k_wire_length = 22, k_cage_length = 8;
 
@@ -38,6 +39,8 @@ LineStyle style_of(sculpt::LineLook look, const Theme& theme) {
     case sculpt::LineLook::rest_side:
     case sculpt::LineLook::material_line:
       return {tint, 1.6F, 1};
+    case sculpt::LineLook::curve:
+      return {tint, 2.2F, 1};
     case sculpt::LineLook::edge_spring:
       return {tint, 1.2F, 4};
     case sculpt::LineLook::face_spring:
@@ -45,6 +48,10 @@ LineStyle style_of(sculpt::LineLook look, const Theme& theme) {
       return {tint, 0.8F, 4};
   }
   return {tint};
+}
+
+Colour mixed(const Colour& a, const Colour& b, float t) {
+  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green), a.blue + t * (b.blue - a.blue), a.alpha};
 }
 
 void set_colour(const Gl& gl, GLint place, const Colour& c) {
@@ -70,6 +77,7 @@ ScenePainter::ScenePainter(const Gl& gl)
       wire_(gl),
       cage_lines_(gl),
       cage_points_(gl),
+      handles_(gl),
       pins_(gl),
       arrows_(gl) {
   nothing_.set(std::vector<float>(4, 0.0F), std::array<Attribute, 1>{{{0, 1}}});
@@ -149,7 +157,9 @@ void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place,
     return result;
   };
   cage_points_.set(placed(scene.cage_points), k_mark_attributes, 1);
+  handles_.set(placed(scene.handles), k_mark_attributes, 1);
   pins_.set(placed(scene.pins), k_mark_attributes, 1);
+  felt_ = scene.felt ? static_cast<float>(std::clamp(scene.felt->share, 0.0, 1.0)) : 0.0F;
   arrow_tint_.reset();
   arrow_ends_.clear();
   for (const sculpt::SceneArrow& arrow : scene.arrows) arrow_ends_.push_back({place(arrow.from), place(arrow.to)});
@@ -310,10 +320,10 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   gl.Disable(GL_BLEND);
   gl.Disable(GL_DEPTH_TEST);
   background_program_.use();
-  gl.Uniform3f(background_program_.at("top"), theme.background_top.red, theme.background_top.green,
-               theme.background_top.blue);
-  gl.Uniform3f(background_program_.at("bottom"), theme.background_bottom.red, theme.background_bottom.green,
-               theme.background_bottom.blue);
+  const Colour top = mixed(theme.background_top, theme.felt, felt_);
+  const Colour bottom = mixed(theme.background_bottom, theme.felt, k_felt_below * felt_);
+  gl.Uniform3f(background_program_.at("top"), top.red, top.green, top.blue);
+  gl.Uniform3f(background_program_.at("bottom"), bottom.red, bottom.green, bottom.blue);
   gl.Uniform2f(background_program_.at("tile_origin"), static_cast<float>(x), static_cast<float>(y));
   gl.Uniform1f(background_program_.at("sampling"), static_cast<float>(sampling.factor));
   gl.Uniform1f(background_program_.at("picture_height"), static_cast<float>(sampling.height));
@@ -370,11 +380,13 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
   draw_line_sets(camera, sampling, k_hidden);
+  draw_marks(handles_, camera, sampling, 0, 6, theme.handle, theme.arrow_outline, k_hidden_pin);
   if (draws_hidden_pins_) draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
   draw_line_sets(camera, sampling, 1);
   draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
+  draw_marks(handles_, camera, sampling, 0, 6, theme.handle, theme.arrow_outline, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);
   hide_behind_surface(draws_surface_);

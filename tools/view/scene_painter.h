@@ -71,7 +71,7 @@ class ScenePainter {
   Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
       arrow_program_, image_program_, obstacle_program_;
   GroundShadow shadow_;
-  VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, pins_;
+  VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, handles_, pins_;
   struct LineSet {
     sculpt::LineLook look;
     std::unique_ptr<VertexArray> lines;
@@ -88,6 +88,7 @@ class ScenePainter {
   std::vector<sculpt::SceneArrow> arrow_ends_;
   std::optional<sculpt::SceneLegend> field_;
   std::optional<Colour> arrow_tint_;
+  float felt_ = 0;  // share of the background's colour
   SurfaceMesh mesh_;
   BrushMark brush_;
   bool draws_hidden_pins_ = true;
