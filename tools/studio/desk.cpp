@@ -25,7 +25,11 @@ const std::vector<ShelfTool>& known_tools() {
        "density"},
       {paint, "paint_damping", "Paint damping", "damps", "Makes motion die out faster; inverted slower",
        icons::damping, "damping"},
+      {mask, "paint_mask", "Mask", "masks", "Protects clay from all other tools; inverted it takes the mask away",
+       icons::layers},
       {pin, "pin_brush", "Pin", "pins", "Holds control points where they are; inverted lets go", icons::pin},
+      {curve, "", "Curve", "lays a curve",
+       "Clicks lay a curve on the clay, Enter finishes it; then its handles draw the clay", icons::branch},
       {extrude, "", "Extrude", "draws a face out", "Draws a face of the control solid out into a new cell",
        icons::cube},
       {probe, "probe", "Probe", "feels", "Touches without changing, and reads how stiff it feels", icons::probe},
@@ -91,6 +95,9 @@ void Desk::show() const {
   if (settings.cut) shown.clip = sculpt::ClipPlane{settings.cut_point, settings.cut_normal};
   shown.cage = settings.cage;
   shown.finest_wires = settings.finest_wires;
+  shown.peel = settings.peel;
+  shown.selectable = settings.choosing.has_value();
+  shown.curve = curve.points;
   workshop->post([shown](Bench& bench) { bench.show(shown); });
 }
 
