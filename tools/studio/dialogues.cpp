@@ -138,10 +138,16 @@ void draw_keys(Desk& desk, int width, int height) {
     }
   }
   const std::size_t gesture_count = gestures().size(), keys = lines.size() - gesture_count;
-  const float row = ui.px(24), column = ui.px(250), head = ui.px(54);
-  const std::size_t columns = 3, per_column = (keys + columns - 1) / columns;
-  const float wide = column * static_cast<float>(columns) + ui.px(40);
+  const float row = ui.px(22), head = ui.px(54);
+  // As many columns as it takes to fit the window, as far as there is room for them.
   const float gestures_height = row * static_cast<float>(gesture_count) + ui.px(14);
+  const float room = static_cast<float>(height) - ui.px(60) - head - gestures_height - ui.px(20);
+  const auto rows = static_cast<std::size_t>(std::max(1.0F, room / row));
+  const auto most = static_cast<std::size_t>(std::max(1.0F, (static_cast<float>(width) - ui.px(60)) / ui.px(200)));
+  const std::size_t columns = std::clamp<std::size_t>((keys + rows - 1) / rows, 3, std::max<std::size_t>(3, most));
+  const std::size_t per_column = (keys + columns - 1) / columns;
+  const float column = std::min(ui.px(250), (static_cast<float>(width) - ui.px(60)) / static_cast<float>(columns));
+  const float wide = column * static_cast<float>(columns) + ui.px(40);
   const float high = head + gestures_height + row * static_cast<float>(per_column) + ui.px(20);
   const Rect place{0.5F * (static_cast<float>(width) - wide),
                    std::max(ui.px(40), 0.5F * (static_cast<float>(height) - high)), wide, high};
@@ -159,7 +165,7 @@ void draw_keys(Desk& desk, int width, int height) {
     put(lines[i], place.x + ui.px(20), place.y + head + row * static_cast<float>(i), ui.px(170));
   for (std::size_t i = 0; i < keys; ++i)
     put(lines[gesture_count + i], place.x + ui.px(20) + column * static_cast<float>(i / per_column),
-        place.y + head + gestures_height + row * static_cast<float>(i % per_column), ui.px(112));
+        place.y + head + gestures_height + row * static_cast<float>(i % per_column), ui.px(96));
   ui.end_panel();
 }
 

@@ -47,6 +47,7 @@ struct PendingEdit {
   std::string choice;    // a line that chooses what it acts on; empty: what is selected
   bool follows = false;  // the pointer gives the amount
   double from_x = 0, from_y = 0, from_amount = 0;
+  std::size_t journal_lines = 0;  // when it was last asked for: what is done since calls for another ghost
 
   [[nodiscard]] std::vector<std::string> lines() const;
 };

@@ -67,25 +67,14 @@ class FacePlaces {
   std::unordered_multimap<std::uint64_t, std::size_t> at_;
 };
 
-// An element is the same one if it has its number and its vertices: what is numbered anew is made and removed.
+// Numbers are never given twice, so that what has its number still is what it was.
 void count_elements(const subdiv::Solid& before, const subdiv::Solid& after, Ghost& ghost) {
   using namespace subdiv;
-  const auto cell_is_in = [](const Solid& solid, CellId c, const Solid& other) {
-    if (!other.is_live(c)) return false;
-    const auto uses = solid.cell_face_uses(c), others = other.cell_face_uses(c);
-    return std::equal(uses.begin(), uses.end(), others.begin(), others.end());
-  };
-  const auto face_is_in = [](const Solid& solid, FaceId f, const Solid& other) {
-    if (!other.is_live(f) || !other.is_boundary(f)) return false;
-    const auto loop = solid.face_vertices(f), others = other.face_vertices(f);
-    return std::equal(loop.begin(), loop.end(), others.begin(), others.end());
-  };
-  for (const CellId c : before.cells()) ghost.cells_removed += cell_is_in(before, c, after) ? 0 : 1;
-  for (const CellId c : after.cells()) ghost.cells_made += cell_is_in(after, c, before) ? 0 : 1;
-  for (const FaceId f : before.faces())
-    if (before.is_boundary(f)) ghost.faces_removed += face_is_in(before, f, after) ? 0 : 1;
-  for (const FaceId f : after.faces())
-    if (after.is_boundary(f)) ghost.faces_made += face_is_in(after, f, before) ? 0 : 1;
+  const auto shows = [](const Solid& solid, FaceId f) { return solid.is_live(f) && solid.is_boundary(f); };
+  for (const CellId c : before.cells()) ghost.cells_removed += after.is_live(c) ? 0 : 1;
+  for (const CellId c : after.cells()) ghost.cells_made += before.is_live(c) ? 0 : 1;
+  for (const FaceId f : before.faces()) ghost.faces_removed += shows(before, f) && !shows(after, f) ? 1 : 0;
+  for (const FaceId f : after.faces()) ghost.faces_made += shows(after, f) && !shows(before, f) ? 1 : 0;
 }
 
 void take_new_faces(const sculpt::SceneSurface& surface, const FacePlaces& old, Ghost& ghost) {

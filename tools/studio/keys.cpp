@@ -198,7 +198,7 @@ const std::array<ActionInfo, k_action_count>& action_table() {
       {edit_unpin, "edit_unpin", "Let go", "Releases what is selected", "Physics", "Alt-H"},
       {mask_clear, "mask_clear", "Clear the mask", "Takes the mask away everywhere", "Tool", "Alt-K"},
       {mask_invert, "mask_invert", "Invert the mask", "Masks what was not, and frees what was", "Tool", "Ctrl-K"},
-      {mask_selected, "mask_selected", "Mask what is selected", "Protects the selection from all tools", "Tool",
+      {mask_selected, "mask_selected", "Mask selection", "Protects the selection from all tools", "Tool",
        "Shift-K"},
       {mask_unselected, "mask_unselected", "Mask all else", "Protects all that is not selected", "Tool",
        "Ctrl-Shift-K"},

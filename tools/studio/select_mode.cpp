@@ -82,7 +82,9 @@ void SelectMode::hover(Desk& desk, const std::optional<Hit>& hit) const {
 }
 
 void SelectMode::press(const Desk& desk, double x, double y) {
-  if (desk.settings.choosing) pressed_ = Eigen::Vector2d(x, y);
+  if (!desk.settings.choosing) return;
+  pressed_ = Eigen::Vector2d(x, y);
+  pressed_on_ = desk.pointed;
 }
 
 std::optional<ScreenBox> SelectMode::box(const Desk& desk, double x, double y) const {
@@ -118,27 +120,28 @@ void SelectMode::click(Desk& desk, bool control, bool shift) {
   const ElementType type = *desk.settings.choosing;
   const sculpt::Selection& selection = selection_of(desk);
   const std::string word = sculpt::word(type);
-  const bool twice = desk.pointed && clicked_ == desk.pointed && desk.time - clicked_at_ < k_double_click;
-  clicked_ = desk.pointed;
+  const bool twice = pressed_on_ && clicked_ == pressed_on_ && desk.time - clicked_at_ < k_double_click;
+  clicked_ = pressed_on_;
   clicked_at_ = desk.time;
-  if (!desk.pointed) {
+  if (!pressed_on_) {
     if (!control && !selection.ids.empty()) desk.run(fmt::format("select {} none", word));
     return;
   }
   const bool joins = control && (selection.type == type || selection.ids.empty());
   if (twice) {
     const char* way = type != ElementType::edges ? "component" : shift ? "ring" : "loop";
-    desk.run(select_line(type, {*desk.pointed}, way) + (joins ? " add" : ""));
+    desk.run(select_line(type, {*pressed_on_}, way) + (joins ? " add" : ""));
     clicked_.reset();
     return;
   }
   const bool is_selected =
-      selection.type == type && std::binary_search(selection.ids.begin(), selection.ids.end(), *desk.pointed);
+      selection.type == type && std::binary_search(selection.ids.begin(), selection.ids.end(), *pressed_on_);
   if (!joins && is_selected && selection.ids.size() == 1) return;
-  desk.run(select_line(type, {*desk.pointed}, !joins ? "" : is_selected ? "remove" : "add"));
+  desk.run(select_line(type, {*pressed_on_}, !joins ? "" : is_selected ? "remove" : "add"));
 }
 
 bool SelectMode::cancel(Desk& desk) {
+  waiting_ = nullptr;
   if (pressed_) {
     pressed_.reset();
     return true;
@@ -160,7 +163,20 @@ void SelectMode::show_pending(const Desk& desk) const {
   desk.workshop->preview(desk.pending.lines());
 }
 
-void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y) const {
+void SelectMode::advance(Desk& desk, const OrbitCamera& camera, double x, double y) {
+  if (!desk.now->scene) {
+    waiting_ = nullptr;
+    desk.pending = {};
+    return;
+  }
+  if (waiting_ != nullptr && desk.now->selectable) begin(desk, camera, *std::exchange(waiting_, nullptr), x, y);
+  PendingEdit& pending = desk.pending;
+  if (pending.tool == nullptr || pending.journal_lines == desk.now->journal_lines) return;
+  pending.journal_lines = desk.now->journal_lines;
+  show_pending(desk);
+}
+
+void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y) {
   if (!desk.now->scene) return;
   const sculpt::Selection& selection = selection_of(desk);
   PendingEdit pending;
@@ -170,12 +186,17 @@ void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& to
     acted = {*desk.settings.choosing, {*desk.pointed}};
     pending.choice = select_line(acted.type, acted.ids);
   }
-  // With nothing to act on, one selects first: the tool says what.
-  if (acted.ids.empty() && !desk.settings.choosing) choose(desk, tool.types.front());
   if (tool.at_once) {
     desk.workshop->run_together(pending.lines());
     return;
   }
+  // With nothing to act on, one selects first: the tool says what.
+  if (!desk.settings.choosing) choose(desk, acted.ids.empty() ? tool.types.front() : acted.type);
+  if (!desk.now->selectable) {
+    waiting_ = &tool;
+    return;
+  }
+  pending.journal_lines = desk.now->journal_lines;
   pending.aim.type = acted.type;
   if (desk.now->selectable) {
     const Patch patch = patch_of(*desk.now->selectable, desk.now->scene->surface, acted);
@@ -185,8 +206,7 @@ void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& to
   }
   const Eigen::Vector3d eye = camera.towards_eye();
   pending.aim.across = axis_along(Eigen::Vector3d(-eye.y(), eye.x(), 0));
-  for (Eigen::Vector3d* place : {&pending.aim.middle})
-    for (double& value : *place) value = rounded(value, size_of(desk));
+  for (double& value : pending.aim.middle) value = rounded(value, size_of(desk));
   pending.amount = tool.initial;
   if (tool.action == Action::edit_extrude || tool.action == Action::edit_peak)
     pending.amount = rounded(0.2 * size_of(desk), size_of(desk));

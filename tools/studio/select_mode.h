@@ -10,6 +10,9 @@ namespace argil::studio {
 
 class SelectMode {
  public:
+  /// To be called each frame: takes the tool that waits for select mode, and asks for the ghost again where the
+  /// document has changed under it.
+  void advance(Desk& desk, const OrbitCamera& camera, double x, double y);
   /// What lies under the pointer, if anything; sets desk.pointed.
   void hover(Desk& desk, const std::optional<Hit>& hit) const;
   /// Keys of select mode and of the tools that edit. True if it was one of them.
@@ -33,9 +36,11 @@ class SelectMode {
 
  private:
   void click(Desk& desk, bool control, bool shift);
-  void begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y) const;
+  void begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y);
 
+  const EditTool* waiting_ = nullptr;  // a tool for which the snapshot does not yet say what lies where
   std::optional<Eigen::Vector2d> pressed_;
+  std::optional<std::uint32_t> pressed_on_;
   // The last click, to know a double one.
   double clicked_at_ = -1;
   std::optional<std::uint32_t> clicked_;

@@ -74,7 +74,8 @@ void draw_select_panel(Desk& desk, float x, float width, const std::function<voi
     desk.show();
   }
   const sculpt::Selection& selection = *now.state.selection;
-  ui.reading_row("Selected", fmt::format("{}", selection.ids.size()), sculpt::word(selection.type),
+  ui.reading_row("Selected", fmt::format("{}", selection.ids.size()),
+                 sculpt::word(selection.ids.empty() ? *desk.settings.choosing : selection.type),
                  "What tools and commands act on");
   std::vector<Action> ways{Action::select_all,  Action::select_none,   Action::select_inverse,
                            Action::select_grow, Action::select_shrink, Action::select_component};
@@ -99,8 +100,8 @@ void draw_pending(Desk& desk, const Rect& free, const SelectMode& mode) {
   const EditTool& tool = *pending.tool;
   const bool has_amount = tool.amount != Amount::none;
   const float width = ui.px(340), row = ui.px(28 + 8), margin = ui.px(14);
-  const float height = ui.px(72) + (has_amount ? row * (tool.amount == Amount::way ? 2 : 1) : 0) + ui.px(40);
-  const Rect place{free.x + 0.5F * (free.width - width), free.y + ui.px(12), width, height};
+  const float height = ui.px(46) + (has_amount ? row * (tool.amount == Amount::way ? 2 : 1) : 0) + ui.px(40);
+  const Rect place{free.x + ui.px(4), free.y + ui.px(12), width, height};
   ui.begin_panel("pending", place, t.panel, k_corner);
   ImDrawList& draw = ui.list();
   ui.text(draw, ui.fonts().strong, {place.x + margin, place.y + ui.px(8), width, ui.px(26)}, t.text,

@@ -313,6 +313,7 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
   }
   camera_.advance(input.seconds);
   update_hover(desk, over_ui);
+  select_.advance(desk, camera_, x_, y_);
 
   const bool pressed_left = input.buttons[0] && !left_, released_left = !input.buttons[0] && left_;
   const bool pressed_middle = input.buttons[2] && !middle_, released_middle = !input.buttons[2] && middle_;

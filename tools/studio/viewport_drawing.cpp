@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "tools/studio/quantity.h"
@@ -129,6 +130,18 @@ void Viewport::draw_marks(Desk& desk) {
     ui.box(draw, place, faded(t.panel, 0.92F), 4);
     ui.text(draw, ui.fonts().small_strong, place, colour, line, Side::centre);
   };
+  // What takes more than a line is wrapped, and stays within the view.
+  const auto note = [&](const std::string& text, Ink colour) {
+    const float most = ui.px(360), margin = ui.px(8);
+    const ImVec2 size =
+        ui.fonts().small_strong->CalcTextSizeA(ui.fonts().small_strong->FontSize, FLT_MAX, most, text.c_str());
+    Rect place{static_cast<float>(x_) + ui.px(18), static_cast<float>(y_) + ui.px(14), size.x + 2 * margin,
+               size.y + margin};
+    place.x = std::min(place.x, ImGui::GetIO().DisplaySize.x - place.width - ui.px(desk.settings.panels ? 320 : 8));
+    ui.box(draw, place, faded(t.panel, 0.92F), 4);
+    draw.AddText(ui.fonts().small_strong, ui.fonts().small_strong->FontSize,
+                 {place.x + margin, place.y + 0.5F * margin}, colour, text.c_str(), nullptr, most);
+  };
   const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ink colour, float width) {
     const Eigen::Vector2d from = camera_.pixel(a), to = camera_.pixel(b);
     draw.AddLine({static_cast<float>(from.x()), static_cast<float>(from.y())},
@@ -155,7 +168,7 @@ void Viewport::draw_marks(Desk& desk) {
   if (desk.pending.tool != nullptr && now.ghost && now.ghost->lines == desk.pending.lines()) {
     std::string said = now.ghost->fault.empty() ? counts_of(*now.ghost) : now.ghost->fault;
     if (const std::size_t more = said.find(';'); !now.ghost->fault.empty() && more != said.npos) said.resize(more);
-    label(Eigen::Vector2d(x_ + ui.px(18), y_ + ui.px(24)), said, now.ghost->fault.empty() ? t.accent : t.warning);
+    note(said, now.ghost->fault.empty() ? t.accent : t.warning);
   }
   if (desk.settings.cut && now.scene) {
     const Settings& s = desk.settings;
@@ -195,7 +208,7 @@ void Viewport::draw_marks(Desk& desk) {
       desk.time - desk.message_since < 3 && desk.dialogue == Dialogue::none) {
     std::string said = now.messages.back().text;
     if (const std::size_t more = said.find(';'); more != said.npos) said.resize(more);
-    label(Eigen::Vector2d(x_ + ui.px(18), y_ + ui.px(24)), said, t.warning);
+    note(said, t.warning);
   }
   if (drag_ == Drag::radius || drag_ == Drag::strength) {
     const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");
