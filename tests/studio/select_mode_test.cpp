@@ -132,7 +132,10 @@ TEST_P(OnModels, ADraggedFaceShowsAGhostAndIsExtrudedOnEnter) {
   EXPECT_EQ(window.now().ghost->faces_made, 5U);
   EXPECT_EQ(window.now().ghost->faces_removed, 1U);
   EXPECT_FALSE(window.now().ghost->corners.empty());
-  EXPECT_FALSE(window.now().ghost->gone.empty());
+  // The face that is drawn out goes, and what is far from it stays.
+  const auto& gone = window.now().ghost->gone;
+  EXPECT_EQ(*std::max_element(gone.begin(), gone.end()), 1);
+  EXPECT_EQ(*std::min_element(gone.begin(), gone.end()), 0);
   EXPECT_EQ(hash(window), before);  // only a ghost
   window.press("Enter");
   window.wait(2);
@@ -231,7 +234,9 @@ TEST(SelectMode, ADoubleClickTakesTheLoopAndWithShiftTheRing) {
 }
 
 TEST(SelectMode, GrowShrinkInvertSetsAndMaskByKeys) {
-  Offscreen window(small_window("grow"));
+  OffscreenOptions tall = small_window("grow");  // so that the panel shows the sets without scrolling
+  tall.height = 900;
+  Offscreen window(tall);
   window.press("Tab");
   window.wait(2);
   click_at(window, k_top);
@@ -372,6 +377,7 @@ TEST(SelectMode, WhatIsSelectedByALineIsJoinedCutAndShapedByKeys) {
     window.wait(2);
     const auto cells = static_cast<long>(document(window).solid().cell_count());
     const std::uint64_t before = hash(window);
+    window.move(300, 300);
     // From sculpting: the mode comes with the tool, for it is what is selected that is acted on.
     window.press(one.keys);
     window.wait(3);
@@ -385,6 +391,7 @@ TEST(SelectMode, WhatIsSelectedByALineIsJoinedCutAndShapedByKeys) {
     window.press("Enter");
     window.wait(2);
     EXPECT_EQ(static_cast<long>(document(window).solid().cell_count()), cells + one.cells);
+    EXPECT_EQ(window.now().messages.back().kind == MessageKind::error, false);
     if (one.line != std::string("transform rotate 0")) {
       EXPECT_NE(hash(window), before);
     }

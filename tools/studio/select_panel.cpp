@@ -99,9 +99,9 @@ void draw_pending(Desk& desk, const Rect& free, const SelectMode& mode) {
   const Tokens& t = ui.tokens();
   const EditTool& tool = *pending.tool;
   const bool has_amount = tool.amount != Amount::none;
-  const float width = ui.px(340), row = ui.px(28 + 8), margin = ui.px(14);
+  const float width = ui.px(300), row = ui.px(28 + 8), margin = ui.px(14);
   const float height = ui.px(46) + (has_amount ? row * (tool.amount == Amount::way ? 2 : 1) : 0) + ui.px(40);
-  const Rect place{free.x + ui.px(4), free.y + ui.px(12), width, height};
+  const Rect place{free.x + ui.px(4), free.bottom() - height - ui.px(4), width, height};
   ui.begin_panel("pending", place, t.panel, k_corner);
   ImDrawList& draw = ui.list();
   ui.text(draw, ui.fonts().strong, {place.x + margin, place.y + ui.px(8), width, ui.px(26)}, t.text,

@@ -32,8 +32,9 @@ struct Ghost {
   std::size_t cells_made = 0, cells_removed = 0, faces_made = 0, faces_removed = 0;  // faces: of the boundary
   std::vector<Eigen::Vector3f> corners;  // of the surface that would be new, three a triangle [m]
   std::vector<std::array<Eigen::Vector3f, 2>> wire;
-  std::vector<std::uint32_t> gone;  // faces of the surface drawn that would go
-  std::uint64_t layout = 0;         // of the snapshot that has that surface
+  std::vector<float> shares;  // of each corner: how new it is, 0 … 1
+  std::vector<float> gone;    // of each vertex of the surface drawn: how far it would go, 0 … 1
+  std::uint64_t layout = 0;   // of the snapshot that has that surface
 };
 
 /// A curve as it lies on the surface now.

@@ -95,14 +95,19 @@ void add_ghost(Overlay& overlay, const Snapshot& now, const Colour& made, const 
     const Eigen::Vector3f normal =
         (ghost.corners[i + 1] - ghost.corners[i]).cross(ghost.corners[i + 2] - ghost.corners[i]).normalized();
     for (std::size_t k = 0; k < 3; ++k)
-      overlay.ghost.push_back({ghost.corners[i + k], normal, with_alpha(made, 0.5F)});
+      overlay.ghost.push_back({ghost.corners[i + k], normal, with_alpha(made, 0.55F * ghost.shares[i + k])});
   }
   overlay.lines.push_back(
       {.ends = ghost.wire, .tint = with_alpha(made, 0.9F), .half_width = 0.7F, .through = true});
-  if (ghost.layout != now.layout) return;
-  for (const std::uint32_t f : ghost.gone)
-    if (f + 1 < now.scene->surface.offsets.size())
-      add_even_face(overlay.veil, now.scene->surface, f, with_alpha(gone, 0.3F));
+  const sculpt::SceneSurface& surface = now.scene->surface;
+  if (ghost.layout != now.layout || ghost.gone.size() != surface.positions.size()) return;
+  for (std::size_t f = 0; f + 1 < surface.offsets.size(); ++f) {
+    float most = 0;
+    for (std::size_t c = surface.offsets[f]; c < surface.offsets[f + 1]; ++c)
+      most = std::max(most, ghost.gone[surface.corners[c]]);
+    if (most > 0)
+      add_face(overlay.veil, surface, f, [&](std::uint32_t v) { return with_alpha(gone, 0.55F * ghost.gone[v]); });
+  }
 }
 
 void add_curve(Overlay& overlay, const CurveOnSurface& curve, const Eigen::Vector3d& way, std::size_t handle,

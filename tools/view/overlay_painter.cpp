@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<Attribute, 3> k_triangle_attributes{{{0, 3}, {1, 3}, {2, 4}}};
 constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 constexpr std::array<Attribute, 1> k_dot_attributes{{{0, 3}}};
-constexpr float k_behind = 0.3F;           // what is left of what lies behind the surface
+constexpr float k_behind = 0.4F;           // what is left of what lies behind the surface
 constexpr float k_veil_forward = 0.0006F;  // towards the eye, so that it lies over the surface, under its wires
 
 constexpr const char* k_triangle_vertex = R"(
