@@ -6,7 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <set>
+#include <thread>
 
 #include "tests/studio/windows.h"
 
@@ -422,6 +425,117 @@ TEST(SelectMode, TheNumberBesideTheGhostSetsTheAmount) {
   window.click("Do it");
   window.wait(3);
   EXPECT_EQ(window.now().history->back().line, "extrude 0.12");
+}
+
+TEST(SelectMode, AClickDoesWhatTheGhostShowsAndTheRightButtonDropsIt) {
+  Offscreen window(small_window("click_commits"));
+  window.press("Tab");
+  window.wait(2);
+  click_at(window, k_top);
+  const Eigen::Vector2d at = pixel(window, k_top);
+  for (const bool right : {true, false}) {
+    const std::uint64_t before = hash(window);
+    window.move(at.x(), at.y());
+    window.press("E");
+    window.move(at.x(), at.y() - 20);
+    window.move(at.x(), at.y() - 40);
+    window.wait(2);
+    ASSERT_TRUE(window.now().ghost);
+    window.button(right ? 1 : 0, true);
+    window.button(right ? 1 : 0, false);
+    window.wait(2);
+    EXPECT_EQ(desk(window).pending.tool, nullptr);
+    EXPECT_FALSE(window.now().ghost);
+    EXPECT_EQ(hash(window) == before, right);
+    EXPECT_EQ(desk(window).context_menu_at[0], -1);
+  }
+  EXPECT_EQ(document(window).solid().cell_count(), 28U);
+  EXPECT_GT(window.now().high.z(), 0.52);
+}
+
+TEST(SelectMode, WhatIsPointedAtIsLitAndAGhostShows) {
+  Offscreen window(small_window("lit"));
+  window.press("Tab");
+  window.wait(2);
+  window.move(20, 500);
+  window.wait(2);
+  const sculpt::Picture plain = window.picture();
+  const Eigen::Vector2d at = pixel(window, k_top);
+  window.move(at.x(), at.y());
+  window.wait(2);
+  const sculpt::Picture lit = window.picture();
+  const auto differs = [&](const sculpt::Picture& other, int x, int y) {
+    const std::size_t i =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(plain.width) + static_cast<std::size_t>(x));
+    return !std::equal(plain.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+                       plain.rgba.begin() + static_cast<std::ptrdiff_t>(i) + 3,
+                       other.rgba.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  EXPECT_TRUE(differs(lit, static_cast<int>(at.x()), static_cast<int>(at.y()) + 8));
+  const Eigen::Vector2d front = pixel(window, {0, -0.25, 0.2});
+  EXPECT_FALSE(differs(lit, static_cast<int>(front.x()), static_cast<int>(front.y())));
+  window.press("E");
+  window.move(at.x(), at.y() - 60);
+  window.wait(2);
+  ASSERT_TRUE(window.now().ghost);
+  ASSERT_EQ(window.now().ghost->fault, "");
+  const Eigen::Vector2d above = pixel(window, {0, 0, 0.5 + 0.7 * desk(window).pending.amount});
+  EXPECT_TRUE(differs(window.picture(), static_cast<int>(above.x()), static_cast<int>(above.y())));
+}
+
+// On the control solid itself edits add to arrays in place: a ghost must not touch those of the document.
+TEST(Ghost, LeavesTheDocumentAloneAndOnlyTheLastIsMade) {
+  for (const int level : {0, 1}) {
+    BenchOptions bench;
+    bench.out = test_folder("ghost");
+    Workshop workshop(bench);
+    workshop.run_together({"new box 3 3 2", "select faces where z > 0.9"});
+    if (level > 0) workshop.run("levels 1");
+    workshop.advance(0);
+    const auto& session = workshop.bench().session();
+    const std::uint64_t before = session.document().state_hash();
+    for (int i = 1; i <= 20; ++i) workshop.preview({fmt::format("extrude {}", 0.01 * i)});
+    workshop.advance(0);
+    ASSERT_TRUE(workshop.latest()->ghost);
+    EXPECT_EQ(workshop.latest()->ghost->lines.front(), "extrude 0.2");
+    EXPECT_EQ(workshop.latest()->ghost->fault, "");
+    EXPECT_EQ(workshop.latest()->ghost->cells_made, 9U);
+    EXPECT_EQ(session.document().state_hash(), before);
+    workshop.preview({"extrude 0.1", "select faces none", "split"});
+    workshop.advance(0);
+    EXPECT_THAT(workshop.latest()->ghost->fault, HasSubstr("split"));
+    for (const char* line : {"undo", "save x.vtu", "nonsense"}) {
+      workshop.preview({line});
+      workshop.advance(0);
+      EXPECT_NE(workshop.latest()->ghost->fault, "") << line;
+    }
+    EXPECT_EQ(session.document().state_hash(), before);
+    workshop.run("extrude 0.2");
+    workshop.advance(0);
+    EXPECT_FALSE(workshop.latest()->ghost);
+    const std::uint64_t after = session.document().state_hash();
+    workshop.run_together({"undo"});
+    workshop.advance(0);
+    EXPECT_EQ(session.document().state_hash(), before);
+    workshop.run_together({"redo"});
+    workshop.advance(0);
+    EXPECT_EQ(session.document().state_hash(), after);
+  }
+}
+
+TEST(Ghost, IsMadeByTheWorkshopsThreadWhileFramesGoOn) {
+  BenchOptions bench;
+  bench.out = test_folder("ghost_thread");
+  Workshop workshop(bench);
+  workshop.start();
+  workshop.frame_begins();
+  workshop.run_together({"new box 2 2 2", "levels 1", "select faces where z > 0.9"});
+  workshop.preview({"extrude 0.3"});
+  // As many looks as it takes: no clock is read, and a workshop that does nothing fails by the test's time limit.
+  while (!workshop.latest()->ghost) std::this_thread::yield();
+  workshop.frame_ends();
+  EXPECT_EQ(workshop.latest()->ghost->cells_made, 4U);
+  EXPECT_EQ(workshop.lines_run_in_frames(), 0);
 }
 
 TEST(SelectMode, TheContextMenuListsWhatCanBeDoneAndDoesIt) {
