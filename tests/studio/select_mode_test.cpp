@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <random>
 #include <set>
 #include <thread>
 
@@ -154,6 +156,75 @@ TEST_P(OnModels, ADraggedFaceShowsAGhostAndIsExtrudedOnEnter) {
   window.press("Ctrl-Shift-Z");
   window.wait(2);
   EXPECT_EQ(hash(window), after);
+  const std::filesystem::path saved = window.workshop().bench().session().options().out / "mine.argil";
+  window.workshop().post([saved](Bench& bench) { bench.save(saved); });
+  window.wait(2);
+  Offscreen again(small_window("extrude_reopened_" + name()), saved);
+  EXPECT_EQ(hash(again), after);
+}
+
+TEST(SelectMode, AToolOfTheShelfEndsIt) {
+  Offscreen window(small_window("shelf"));
+  window.press("Tab");
+  window.wait(2);
+  click_at(window, k_top);
+  window.press("E");
+  window.wait(2);
+  window.press("2");
+  window.wait(2);
+  EXPECT_FALSE(desk(window).settings.choosing);
+  EXPECT_EQ(desk(window).pending.tool, nullptr);
+  EXPECT_FALSE(window.now().ghost);
+  EXPECT_EQ(desk(window).brush.name, "grab");
+}
+
+// Whatever keys and gestures come, nothing crashes, no line runs in a frame, and the journal gives the same bits.
+// ARGIL_FUZZ_HANDS=1000 tries so many hands.
+TEST(SelectMode, RandomHandsSlow) {
+  const char* const asked = std::getenv("ARGIL_FUZZ_HANDS");
+  const std::uint32_t hands = asked != nullptr ? static_cast<std::uint32_t>(std::atoi(asked)) : 2;
+  for (std::uint32_t seed = 1; seed <= hands; ++seed) {
+    SCOPED_TRACE(seed);
+    OffscreenOptions few = small_window("monkey");
+    few.bench.limits.cells = 20'000;
+    few.bench.limits.steps = 400;
+    Offscreen window(few);
+    std::mt19937 random(seed);
+    const auto below = [&](std::uint32_t end) { return static_cast<int>(random() % end); };
+    std::vector<std::string> keys;
+    for (const ActionInfo& action : action_table()) {
+      using enum Action;
+      const bool leaves = action.action == quit || action.action == save || action.action == save_as ||
+                          action.action == open || action.action == finer || action.action == screenshot;
+      if (!leaves && *action.keys != '\0') keys.emplace_back(action.keys);
+      // Those of select mode come twice as often.
+      if (action.action >= confirm && *action.keys != '\0') keys.emplace_back(action.keys);
+    }
+    for (int i = 0; i < 150; ++i) {
+      const double x = 80 + below(560), y = 60 + below(460);
+      switch (below(8)) {
+        case 0:
+          window.drag(x, y, x + below(160) - 80, y + below(160) - 80, 1 + below(5), below(8) == 0 ? 1 : 0);
+          break;
+        case 1:
+        case 2:
+          window.key(key::left_control, below(3) == 0);
+          window.click(x, y);
+          window.key(key::left_control, false);
+          break;
+        case 3:
+          window.wheel(below(2) == 0 ? 1 : -1);
+          break;
+        default:
+          window.move(x, y);
+          window.press(keys[static_cast<std::size_t>(below(static_cast<std::uint32_t>(keys.size())))]);
+      }
+    }
+    window.press("Shift-Esc");
+    window.wait(3);
+    EXPECT_EQ(window.workshop().lines_run_in_frames(), 0);
+    EXPECT_EQ(hash_of_journal(window, "monkey_replayed"), hash(window));
+  }
 }
 
 TEST(SelectMode, EscDropsTheGhostThenTheSelectionThenTheMode) {

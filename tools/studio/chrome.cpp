@@ -85,8 +85,8 @@ void draw_shelf(Desk& desk, const Layout& layout) {
     std::string tooltip = std::string(tools[i].label) + ": " + tools[i].help;
     if (i < 9)
       tooltip += "  ·  " + desk.bindings.word_of(static_cast<Action>(static_cast<std::size_t>(Action::tool_1) + i));
-    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon, i == desk.settings.tool,
-                       tooltip))
+    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon,
+                       i == desk.settings.tool && !desk.settings.choosing, tooltip))
       desk.take_tool(i);
     y += step;
   }
@@ -376,6 +376,7 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
     hints.push_back({"Wheel", " peels"});
   else if (desk.settings.cut)
     hints.push_back({"Wheel", " moves the cut"});
+  hints.push_back({desk.bindings.word_of(Action::select_next_type), " selects"});
   pill(hints, layout.timeline.y - ui.px(16));
 }
 

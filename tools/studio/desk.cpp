@@ -68,6 +68,15 @@ void Desk::take_tool(std::size_t index) {
   if (index >= shelf_tools().size()) return;
   settings.tool = index;
   settings.panel = Panel::tool;
+  // A tool of the shelf works on clay: selecting is over.
+  if (pending.tool != nullptr) {
+    pending = {};
+    workshop->preview({});
+  }
+  if (settings.choosing) {
+    settings.choosing.reset();
+    show();
+  }
   if (*tool().name != '\0') brush.name = tool().name;
   // What is painted should be seen; clay comes back with the next tool.
   const bool paints = *tool().field != '\0';

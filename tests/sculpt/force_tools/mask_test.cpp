@@ -88,6 +88,23 @@ TEST(Mask, NetForceIsStillTheDevices) {
   }
 }
 
+TEST(Mask, ToolsWithoutANetForceHaveNoneUnderAnUnevenMask) {
+  TestSession session(block());
+  session.run({"set mask min(1, x / 0.3 + y)"});
+  Eigen::Matrix3Xd bent = session.document().positions();
+  for (Eigen::Index i = 0; i < bent.cols(); ++i) bent(2, i) += 0.02 * std::sin(9 * bent(0, i) + 5 * bent(1, i));
+  for (const char* name : {"twist", "pinch", "smooth"}) {
+    const auto tool = take_hold(session.document(), tool_of(name), {{0.15, 0.15, 0.2}}, {});
+    const StrokePose moved{{0.17, 0.14, 0.22}};
+    const fem::Loads loads = tool->loads(moved, bent);
+    Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, bent.cols());
+    if (loads.forces.cols() > 0) forces = loads.forces;
+    fem::add_spring_forces(loads.springs, bent, forces);
+    EXPECT_GT(forces.norm(), 1e-6) << name;
+    EXPECT_LT(forces.rowwise().sum().norm(), 1e-10 * forces.norm()) << name;
+  }
+}
+
 TEST(Mask, WhatIsMaskedIsNotTouched) {
   TestSession session(block());
   session.run({"set mask 1 where x < 0.15"});
