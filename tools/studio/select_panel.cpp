@@ -74,8 +74,9 @@ void draw_select_panel(Desk& desk, float x, float width, const std::function<voi
     desk.show();
   }
   const sculpt::Selection& selection = *now.state.selection;
-  ui.reading_row("Selected", fmt::format("{}", selection.ids.size()),
-                 sculpt::word(selection.ids.empty() ? *desk.settings.choosing : selection.type),
+  const std::string many = sculpt::word(selection.ids.empty() ? *desk.settings.choosing : selection.type);
+  const std::string one = many == "vertices" ? "vertex" : many.substr(0, many.size() - 1);
+  ui.reading_row("Selected", fmt::format("{}", selection.ids.size()), selection.ids.size() == 1 ? one : many,
                  "What tools and commands act on");
   std::vector<Action> ways{Action::select_all,  Action::select_none,   Action::select_inverse,
                            Action::select_grow, Action::select_shrink, Action::select_component};
