@@ -243,7 +243,7 @@ const std::vector<Group>& groups() {
       {"Splitting", {&splitting_commands}},
       {"Shaping", {&transform_commands, &smoothing_commands, &sharpen_commands}},
       {"Refining", {&level_commands}},
-      {"Material", {&material_commands}},
+      {"Material", {&material_commands, &mask_commands}},
       {"Physics", {&load_commands, &key_commands, &simulation_commands, &obstacle_commands}},
       {"Force tools", {&tool_commands, &stroke_commands}},
       {"History", {&history_commands}},

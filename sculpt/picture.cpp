@@ -216,6 +216,26 @@ SceneFelt felt_force(const PictureRequest& request) {
   return {force / *request.felt, fmt::format("felt {:.3g} {}", force * shown.per_value, shown.unit)};
 }
 
+// 1 for what the plane and the peeling leave; empty: all.
+CellData<std::uint8_t> shown_cells(const Solid& solid, const Eigen::Matrix3Xd& positions,
+                                   const PictureRequest& request) {
+  CellData<std::uint8_t> kept;
+  if (request.clip) kept = cells_met_or_kept(solid, positions, *request.clip);
+  if (request.peel == 0) return kept;
+  if (kept.size() == 0) kept = CellData<std::uint8_t>(solid.cell_capacity(), 1);
+  const CellData<std::uint32_t> depth = cell_depths(solid);
+  std::uint32_t deepest = 0;
+  for (const CellId c : solid.cells()) {
+    deepest = std::max(deepest, depth[c]);
+    if (depth[c] < static_cast<std::uint32_t>(request.peel)) kept[c] = 0;
+  }
+  if (static_cast<std::uint32_t>(request.peel) > deepest)
+    throw Error(ErrorCode::bad_input, fmt::format("peel {} takes everything away: the solid is {} layers of cells "
+                                                  "deep at this level; peel less, or refine it",
+                                                  request.peel, deepest + 1));
+  return kept;
+}
+
 void apply_range(Scene& scene, const PictureRequest& request) {
   if (!request.range || !scene.legend) return;
   scene.legend->low = (*request.range)[0];
@@ -252,8 +272,7 @@ Scene make_scene(const Document& document, const PictureRequest& request) {
   const Solid& solid = body.solid();
   const Eigen::Matrix3Xd positions = body.nodes(document.positions());
   Scene scene;
-  const CellData<std::uint8_t> kept =
-      request.clip ? cells_met_or_kept(solid, positions, *request.clip) : CellData<std::uint8_t>{};
+  const CellData<std::uint8_t> kept = shown_cells(solid, positions, request);
   if (request.style == PictureStyle::solid) {
     scene.surface = surface_of(solid, positions, request, kept, body.refinement());
   } else {

@@ -26,6 +26,7 @@ struct PictureRequest {
   double opacity = 1;                               // of the volume
   std::optional<std::array<double, 2>> range;
   std::optional<ClipPlane> clip;
+  int peel = 0;  // layers of the finest cells that are taken away from the boundary inwards
   PictureStyle style = PictureStyle::solid;
   bool cage = false;
   bool control_wire = false;  // outlines of the control cells only, on the refined surface

@@ -108,6 +108,25 @@ CellData<std::uint8_t> cells_met_or_kept(const Solid& solid, const Eigen::Matrix
   return kept;
 }
 
+CellData<std::uint32_t> cell_depths(const Solid& solid) {
+  CellData<std::uint32_t> depth(solid.cell_capacity(), k_none);
+  std::vector<CellId> layer, next;
+  const auto reach = [&](CellId cell, std::uint32_t at) {
+    if (!cell.valid() || depth[cell] != k_none) return;
+    depth[cell] = at;
+    next.push_back(cell);
+  };
+  for (const FaceId f : solid.faces())
+    if (solid.is_boundary(f)) reach(solid.owner(solid.boundary_use(f)), 0);
+  for (std::uint32_t at = 1; !next.empty(); ++at) {
+    layer = std::exchange(next, {});
+    for (const CellId cell : layer)
+      for (const FaceUseId use : solid.cell_face_uses(cell))
+        reach(solid.owner(subdiv::face_use(subdiv::face_of(use), !subdiv::is_back(use))), at);
+  }
+  return depth;
+}
+
 SceneSurface cells_surface(const Solid& solid, const Eigen::Matrix3Xd& positions,
                            const CellData<std::uint8_t>& kept) {
   assert(static_cast<std::size_t>(positions.cols()) >= solid.vertex_capacity());

@@ -22,6 +22,10 @@ struct ClipPlane {
                                                                const Eigen::Matrix3Xd& positions,
                                                                const ClipPlane& plane);
 
+/// How many layers each cell lies below the boundary: 0 with a boundary face, else one more than the least of the
+/// cells that share a face with it. Cost O(cells).
+[[nodiscard]] subdiv::CellData<std::uint32_t> cell_depths(const subdiv::Solid& solid);
+
 /// The faces between a kept cell and none, or one that is not kept, ascending, seen from outside the kept cell;
 /// faces inside the solid are marked as cut. Normals split at edges of sharpness ≥ 1, of cut faces, where other
 /// than two faces meet, and where the surface bends by more than 50 degrees (coarse levels look as they are). Every

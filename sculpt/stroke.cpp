@@ -62,10 +62,10 @@ void Stroke::hold(const StrokePose& first) {
     tools_.push_back(take_curve(document, tool_, curve, options_.handle, first));
   } else if (tool_.name == k_probe_tool) {
     probe_ = std::make_unique<Probe>(document);
-    static_cast<void>(touch(document, tool_, first.position, options_.inside));
+    static_cast<void>(touch(document, tool_, first.position, options_.inside, Masks::ignored));
   } else if (is_painting_tool(tool_.name)) {
     if (painting_)  // one paints for both images
-      static_cast<void>(touch(document, tool_, first.position, options_.inside));
+      static_cast<void>(touch(document, tool_, first.position, options_.inside, masks_of(tool_.name)));
     else
       painting_ = std::make_unique<Painting>(document, tool_, first.position, grip);
   } else {
@@ -136,7 +136,7 @@ void Stroke::paint() {
 void Stroke::read() {
   if (!probe_) return;
   reading_.reset();
-  if (touched(session_.document(), tool_, pose_.position, options_.inside).empty()) return;
+  if (touched(session_.document(), tool_, pose_.position, options_.inside, Masks::ignored).empty()) return;
   reading_ = probe_->read(tool_, pose_.position, options_.inside);
   softest_ = softest_ > 0 ? std::min(softest_, reading_->stiffness) : reading_->stiffness;
   stiffest_ = std::max(stiffest_, reading_->stiffness);

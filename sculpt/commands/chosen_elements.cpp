@@ -11,6 +11,7 @@
 #include "sculpt/selection.h"
 #include "subdiv/edge_walks.h"
 #include "subdiv/error.h"
+#include "subdiv/sort_unique.h"
 
 namespace argil::sculpt {
 
@@ -39,7 +40,8 @@ bool bends(const Solid& solid, const Eigen::Matrix3Xd& positions, EdgeId edge, d
 }
 
 // Arguments that narrow what is chosen, and those that go on from it.
-constexpr const char* k_filters[] = {"where", "ray", "box", "sphere", "boundary", "inside", "angle", "set"};
+constexpr const char* k_filters[] = {"where",  "ray",   "box", "sphere", "boundary",
+                                     "inside", "angle", "set", "ids",    "selected"};
 constexpr const char* k_ways[] = {"component", "loop", "ring", "grow", "shrink", "invert"};
 
 std::vector<std::string> given(const Arguments& arguments, std::span<const char* const> names) {
@@ -78,6 +80,36 @@ void keep_in_space(const Document& document, const Arguments& arguments, Asked a
     keep_boundary(document, selection.type, arguments.has("boundary"), selection.ids);
 }
 
+bool is_there(const Document& document, ElementType type, double number) {
+  const Solid& solid = type == ElementType::nodes ? document.refinement().solid() : document.solid();
+  const auto id = static_cast<std::uint32_t>(number);
+  switch (type) {
+    case ElementType::edges:
+      return solid.is_live(EdgeId{id});
+    case ElementType::faces:
+      return solid.is_live(FaceId{id});
+    case ElementType::cells:
+      return solid.is_live(CellId{id});
+    default:
+      return solid.is_live(VertexId{id});
+  }
+}
+
+// Those that are named, ascending.
+std::vector<std::uint32_t> named_elements(const Document& document, const Arguments& arguments, ElementType type) {
+  std::vector<std::uint32_t> ids;
+  for (const double number : arguments.numbers("ids")) {
+    if (!is_there(document, type, number))
+      throw Error(ErrorCode::not_found,
+                  fmt::format("there are no {} with the number {:.0f}; name those that there are, or choose by "
+                              "place, as in `select {} where z > 0`",
+                              word(type), number, word(type)));
+    ids.push_back(static_cast<std::uint32_t>(number));
+  }
+  subdiv::sort_unique(ids);
+  return ids;
+}
+
 // What the filters let through of all the elements of the type.
 Selection filtered(const Document& document, const Arguments& arguments, ElementType type) {
   const Asked asked = arguments.has("any")   ? Asked::any_vertex
@@ -94,6 +126,15 @@ Selection filtered(const Document& document, const Arguments& arguments, Element
   if (arguments.has("ray")) {
     const auto& ray = arguments.numbers("ray");
     keep_of(picked(document, type, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}));
+  }
+  if (arguments.has("ids")) keep_of(named_elements(document, arguments, type));
+  if (arguments.has("selected")) {
+    const Selection& selected = *document.state().selection;
+    if (selected.type != type && !selected.ids.empty())
+      throw Error(ErrorCode::bad_input,
+                  fmt::format("what is selected now are {}, not {}; write `select {} selected`",
+                              word(selected.type), word(type), word(selected.type)));
+    keep_of(selected.ids);
   }
   keep_in_space(document, arguments, asked, selection);
   if (arguments.has("angle")) {

@@ -18,6 +18,7 @@ std::vector<Command> transform_commands();   // move transform mirror duplicate
 std::vector<Command> smoothing_commands();   // smooth project
 std::vector<Command> selection_commands();   // select sets
 std::vector<Command> material_commands();    // set paint model
+std::vector<Command> mask_commands();        // mask
 std::vector<Command> load_commands();        // pin gravity force
 std::vector<Command> key_commands();         // key keys
 std::vector<Command> simulation_commands();  // integrator guard step solve commit

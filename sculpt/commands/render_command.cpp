@@ -80,7 +80,7 @@ void read_lines(const Session& session, const Arguments& arguments, PictureReque
               .surface;
   }
   if (arguments.has("underlay")) {
-    for (const char* other : {"volume", "clip", "frames", "style", "corner", "net", "reference", "colours"})
+    for (const char* other : {"volume", "clip", "peel", "frames", "style", "corner", "net", "reference", "colours"})
       if (arguments.has(other))
         throw Error(
             ErrorCode::bad_input,
@@ -109,6 +109,7 @@ void read_lines(const Session& session, const Arguments& arguments, PictureReque
 }
 
 void read_cells(const Arguments& arguments, PictureRequest& request) {
+  request.peel = static_cast<int>(arguments.integer("peel", 0));
   if (arguments.has("clip")) {
     const auto& plane = arguments.numbers("clip");
     request.clip = ClipPlane{{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}};
@@ -281,6 +282,11 @@ std::vector<Command> render_commands() {
              .count = 6,
              .low = -1e9,
              .high = 1e9},
+            {.name = "peel",
+             .type = ArgumentType::integer,
+             .help = "so many layers of the finest cells are taken away from the boundary inwards",
+             .low = 0,
+             .high = 1e6},
             {.name = "clip",
              .help = "a plane (point, then normal): whole cells beyond it are taken away",
              .count = 6},

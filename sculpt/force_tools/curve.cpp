@@ -110,11 +110,13 @@ class CurveGrip : public ForceTool {
     }
     laid.points = nearest_on_surface(document, places);
     touched_ = touched_near(document, tool, [&](const Eigen::Vector3d& x) { return laid.nearest(x).distance; });
+    if (touched_.masked) refuse_masked();
     if (touched_.empty())
       throw Error(ErrorCode::bad_input,
                   fmt::format("the curve holds no part of the surface with a radius of {:g} m; "
                               "make the radius larger or refine the solid: levels 1",
                               tool.radius));
+    strength_ *= touched_.share;
     middle_ = middle_of(touched_);
     influence_.resize(touched_.weights.size());
     for (Eigen::Index i = 0; i < influence_.size(); ++i) {

@@ -12,7 +12,7 @@ class Grab : public ForceTool {
       : touched_(touch(document, tool, first.position, options.inside)),
         middle_(middle_of(touched_)),
         first_(first),
-        strength_(tool.strength),
+        strength_(touched_.share * tool.strength),
         limit_(tool.largest_force),
         invert_(options.invert) {}
 

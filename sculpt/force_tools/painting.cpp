@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sculpt/document_loads.h"
-#include "sculpt/force_tools/touched.h"
 #include "sculpt/region.h"
 #include "subdiv/error.h"
 
@@ -19,9 +18,9 @@ struct PaintedField {
   std::string_view tool;
   FieldName field;
 };
-constexpr std::array k_painted{PaintedField{"paint_stiffness", FieldName::young_modulus},
-                               PaintedField{"paint_mass", FieldName::density},
-                               PaintedField{"paint_damping", FieldName::damping}};
+constexpr std::array k_painted{
+    PaintedField{"paint_stiffness", FieldName::young_modulus}, PaintedField{"paint_mass", FieldName::density},
+    PaintedField{"paint_damping", FieldName::damping}, PaintedField{"paint_mask", FieldName::mask}};
 constexpr std::string_view k_pins = "pin_brush";
 
 const FieldInfo& info_of(FieldName field) {
@@ -44,20 +43,28 @@ bool is_painting_tool(std::string_view name) {
          std::any_of(k_painted.begin(), k_painted.end(), [&](const PaintedField& p) { return p.tool == name; });
 }
 
+Masks masks_of(std::string_view tool) {
+  return tool == "paint_mask" ? Masks::ignored : Masks::protect;
+}
+
 Painting::Painting(const Document& document, const Tool& tool, const Eigen::Vector3d& at,
                    const GripOptions& options)
     : tool_(tool), invert_(options.invert), base_(document.state().fields) {
   for (const PaintedField& painted : k_painted)
     if (painted.tool == tool.name) field_ = painted.field;
-  if (field_ && !tool.scales) {
+  if (field_ == FieldName::mask && tool_.scales) {  // a factor of none is none
+    tool_.scales = false;
+    tool_.amount = 1;
+  }
+  if (field_ && !tool_.scales) {
     const FieldInfo& info = info_of(*field_);
-    if (!(tool.amount >= info.low && tool.amount <= info.high))
+    if (!(tool_.amount >= info.low && tool_.amount <= info.high))
       throw Error(ErrorCode::bad_input,
                   fmt::format("{} must lie between {:g} and {:g} {}, and the tool's value is {:g}; "
                               "give another, as in `tool {} value {:g}`",
                               info.word, info.low, info.high, info.unit, tool.amount, tool.name, info.initial));
   }
-  static_cast<void>(touch(document, tool, at, options.inside));
+  static_cast<void>(touch(document, tool, at, options.inside, masks_of(tool.name)));
   largest_ = Eigen::VectorXd::Zero(field_ ? (*base_)[*field_].size()
                                           : static_cast<Eigen::Index>(document.solid().vertex_capacity()));
   pinned_.assign(document.solid().vertex_capacity(), 0);
@@ -78,13 +85,14 @@ void Painting::note(const Document& document, const StrokePose& from, const Stro
     noted_ = true;
   };
   const Eigen::Matrix3Xd nodes = subdiv::apply(document.refinement().stencils.back(), document.positions());
+  const Eigen::VectorXd& mask = (*base_)[FieldName::mask];
   if (field_) {
-    const Eigen::VectorXd& mask = (*base_)[FieldName::mask];
-    for (Eigen::Index i = 0; i < nodes.cols(); ++i) note(i, nodes.col(i), 1 - mask[i]);
+    const bool masks = field_ == FieldName::mask;
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) note(i, nodes.col(i), masks ? 1 : 1 - mask[i]);
   } else {
     const auto node_of = node_from_control_vertex(document);
     for (const subdiv::VertexId v : document.solid().vertices())
-      note(static_cast<Eigen::Index>(v.index()), nodes.col(node_of[v.index()]), 1);
+      note(static_cast<Eigen::Index>(v.index()), nodes.col(node_of[v.index()]), 1 - mask[node_of[v.index()]]);
   }
 }
 

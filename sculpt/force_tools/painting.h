@@ -8,15 +8,20 @@
 
 #include "sculpt/document.h"
 #include "sculpt/force_tools/force_tool.h"
+#include "sculpt/force_tools/touched.h"
 
 namespace argil::sculpt {
 
-/// paint_stiffness paint_mass paint_damping pin_brush.
+/// paint_stiffness paint_mass paint_damping paint_mask pin_brush.
 [[nodiscard]] bool is_painting_tool(std::string_view name);
+
+/// The mask is painted where it already is; all others it protects from.
+[[nodiscard]] Masks masks_of(std::string_view tool);
 
 class Painting {
  public:
-  /// Inverted it divides by the factor, or draws towards the initial value; pin_brush then releases.
+  /// Inverted it divides by the factor, or draws towards the initial value; pin_brush then releases. paint_mask
+  /// draws towards 1, or the tool's value; inverted towards 0.
   /// @throws Error (bad_input) for a value that the field cannot have, or if nothing of the body is within the
   /// radius.
   Painting(const Document& document, const Tool& tool, const Eigen::Vector3d& at, const GripOptions& options);

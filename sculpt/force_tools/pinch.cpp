@@ -31,9 +31,9 @@ class Pinch : public ForceTool {
       const double length = vectors.col(a).norm(), at_hold = patch_.modes.at_hold.col(a).norm();
       // Along the modes themselves, so that there is no moment either.
       const double way = !options_.invert ? -1 : length > 0 ? 2 * at_hold / length - 1 : 0;
-      forces.col(a) = pose.pressure * tool_.strength * way * vectors.col(a);
+      forces.col(a) = pose.pressure * patch_.touched.share * tool_.strength * way * vectors.col(a);
     }
-    return mode_loads(patch_, vectors, forces, tool_.strength, tool_.largest_force);
+    return mode_loads(patch_, vectors, forces, patch_.touched.share * tool_.strength, tool_.largest_force);
   }
 
   Eigen::Vector3d held(const Eigen::Matrix3Xd& positions) const override {

@@ -114,7 +114,7 @@ Probe::~Probe() = default;
 
 ProbeReading Probe::read(const Tool& tool, const Eigen::Vector3d& at, bool inside) const {
   const Document& document = impl_->document;
-  const Touched here = touch(document, tool, at, inside);
+  const Touched here = touch(document, tool, at, inside, Masks::ignored);
   const fem::PointStencil middle = middle_of(here);
   Eigen::Matrix3Xd forces =
       fem::point_forces(middle, static_cast<std::size_t>(document.positions().cols()), here.normal);

@@ -9,8 +9,9 @@ PullGrip::PullGrip(const Document& document, const Tool& tool, const Eigen::Vect
                    const GripOptions& options)
     : at_(at), largest_force_(tool.largest_force), invert_(options.invert) {
   const std::vector<Eigen::Vector3d> surface = nearest_on_surface(document, {&at, 1});
-  if (options.inside || (surface[0] - at).norm() > tool.radius) {
-    grip_ = fem::anchor_spring(middle_of(touch(document, tool, at, options.inside)), at, tool.strength);
+  if (options.inside || (surface[0] - at).norm() > tool.radius || has_mask(document)) {
+    const Touched held = touch(document, tool, at, options.inside);
+    grip_ = fem::anchor_spring(middle_of(held), at, held.share * tool.strength);
   } else {
     const fem::Discretization& d = document.discretization();
     const fem::Brush brush{at, tool.radius, falloff_by_word(tool.falloff)};

@@ -98,7 +98,7 @@ class Smooth : public ForceTool {
     Tool wide = tool_;
     wide.radius *= 2;
     wide.falloff = "constant";
-    const Touched around = sculpt::touched(document, wide, at_, touched.inside);
+    const Touched around = sculpt::touched(document, wide, at_, touched.inside, Masks::ignored);
     const Eigen::Matrix3Xd nodes = subdiv::apply(document.discretization().nodes.rows, document.positions());
     const Eigen::Matrix3Xd normals = touched.inside ? Eigen::Matrix3Xd() : normals_of(around, nodes);
     const Eigen::Matrix3Xd own = touched.inside ? Eigen::Matrix3Xd() : normals_of(touched, nodes);
@@ -158,7 +158,7 @@ class Smooth : public ForceTool {
       points.push_back(around.points[near[static_cast<std::size_t>(j)].index]);
       factors.push_back(-weights[j]);
     }
-    Bump bump{combination(points, factors), touched.weights[static_cast<Eigen::Index>(i)], {}};
+    Bump bump{combination(points, factors), touched.share * touched.weights[static_cast<Eigen::Index>(i)], {}};
     bump.at_hold = touched.positions.col(static_cast<Eigen::Index>(i));
     for (Eigen::Index j = 0; j < n; ++j)
       bump.at_hold -=

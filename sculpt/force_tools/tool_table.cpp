@@ -32,6 +32,8 @@ constexpr std::array k_tools{
     ToolKind{"paint_stiffness", "paints young_modulus along the way, inside the solid as well", nullptr},
     ToolKind{"paint_mass", "paints density", nullptr},
     ToolKind{"paint_damping", "paints damping", nullptr},
+    ToolKind{"paint_mask", "protects from all other tools, wholly or to `value`; inverted it takes the mask away",
+             nullptr},
     ToolKind{"pin_brush", "pins control points; inverted it releases", nullptr},
     ToolKind{"probe", "touches without changing anything, and reads how stiff the body feels", nullptr},
 };

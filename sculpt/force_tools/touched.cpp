@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/discretization/materials.h"
+#include "fem/elements/element_kind.h"
 #include "fem/surface_points.h"
 #include "sculpt/document_loads.h"
 #include "subdiv/error.h"
@@ -61,13 +63,63 @@ fem::PointStencil gathered(std::vector<std::pair<std::uint32_t, double>>& entrie
   return result;
 }
 
+// What the mask leaves at quadrature points: 1 everywhere where there is none.
+class Unmasked {
+ public:
+  Unmasked(const Document& document, Masks masks) : d_(document.discretization()) {
+    if (masks == Masks::ignored || !has_mask(document)) return;
+    const Eigen::VectorXd& mask = (*document.state().fields)[FieldName::mask];
+    at_node_.assign(d_.nodes.node_count(), 1.0);
+    for (std::size_t v = 0; v < d_.surface_node_from_vertex.size(); ++v)
+      at_node_[d_.surface_node_from_vertex[v]] = 1 - mask[static_cast<Eigen::Index>(v)];
+    const subdiv::Stencils& rows = d_.field_samples.rows;
+    samples_.assign(rows.row_count(), 0.0);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const auto row = rows.row(static_cast<std::uint32_t>(i));
+      for (std::size_t e = 0; e < row.columns.size(); ++e) samples_[i] += row.weights[e] * (1 - mask[row.columns[e]]);
+    }
+  }
+
+  double on_surface(const std::array<std::uint32_t, 4>& quad, const std::array<double, 4>& shapes) const {
+    if (at_node_.empty()) return 1;
+    double left = 0;
+    for (std::size_t c = 0; c < 4; ++c) left += shapes[c] * at_node_[quad[c]];
+    return std::clamp(left, 0.0, 1.0);
+  }
+
+  double inside(std::size_t block, std::size_t element, int point) const {
+    if (at_node_.empty()) return 1;
+    const fem::ElementKind& kind = *d_.blocks[block].kind;
+    const auto count = static_cast<std::size_t>(fem::field_corner_count(kind)), p = static_cast<std::size_t>(point);
+    const double* shapes = kind.shapes.data() + p * count;
+    Eigen::VectorXd trilinear;
+    if (fem::field_corner_count(kind) != kind.node_count) {  // fields are trilinear over a tricubic element
+      Eigen::Matrix3Xd gradients;
+      fem::trilinear_hexahedron().evaluate(kind.points[p], trilinear, gradients);
+      shapes = trilinear.data();
+    }
+    const std::uint32_t* const corners = d_.field_samples.corners[block].data() + element * count;
+    double left = 0;
+    for (std::size_t c = 0; c < count; ++c) left += shapes[c] * samples_[corners[c]];
+    return std::clamp(left, 0.0, 1.0);
+  }
+
+ private:
+  const fem::Discretization& d_;
+  std::vector<double> at_node_, samples_;  // 1 − mask; empty: nothing is masked
+};
+
 class Collector {
  public:
   Collector(const fem::Discretization& discretization, Touched& result)
       : rows_(discretization.nodes.rows), result_(result) {}
 
-  void add(std::span<const std::uint32_t> nodes, const double* shapes, double falloff, double measure,
-           const Eigen::Vector3d& position, const TouchedPlace& place) {
+  /// `unmasked`: what the mask leaves, 0 … 1.
+  void add(std::span<const std::uint32_t> nodes, const double* shapes, double falloff, double unmasked,
+           double measure, const Eigen::Vector3d& position, const TouchedPlace& place) {
+    whole_ += falloff * measure;
+    falloff *= unmasked;
+    if (!(unmasked > 0)) return;
     entries_.clear();
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const auto row = rows_.row(nodes[a]);
@@ -90,8 +142,11 @@ class Collector {
     for (const double w : weights_) result_.measure += w;
     if (!(result_.measure > 0)) {
       result_.points.clear();
+      result_.places.clear();
+      result_.masked = whole_ > 0;
       return;
     }
+    result_.share = result_.measure / whole_;
     result_.middle.setZero();
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -108,11 +163,12 @@ class Collector {
   std::vector<std::pair<std::uint32_t, double>> entries_;
   std::vector<double> falloffs_, weights_;
   std::vector<Eigen::Vector3d> positions_;
+  double whole_ = 0;  // Σ falloff · measure, the mask left aside
 };
 
 void touch_surface(const fem::Discretization& d, const fem::SurfacePatch& surface, const Eigen::Matrix3Xd& nodes,
                    const Tool& tool, double radius, const std::function<double(const Eigen::Vector3d&)>& distance,
-                   Touched& result) {
+                   const Unmasked& unmasked, Touched& result) {
   const fem::Falloff falloff = falloff_by_word(tool.falloff);
   Collector collector(d, result);
   result.normal.setZero();
@@ -121,16 +177,16 @@ void touch_surface(const fem::Discretization& d, const fem::SurfacePatch& surfac
       const fem::SurfacePoint point = fem::surface_point(quad, which, nodes);
       const double s = distance(point.position) / radius;
       if (s >= 1) continue;
-      const double weight = falloff_weight(falloff, s);
-      result.normal += weight * point.area_vector;
-      collector.add(quad, point.shapes.data(), weight, point.area_vector.norm(), point.position,
+      const double weight = falloff_weight(falloff, s), left = unmasked.on_surface(quad, point.shapes);
+      result.normal += left * weight * point.area_vector;
+      collector.add(quad, point.shapes.data(), weight, left, point.area_vector.norm(), point.position,
                     {quad, which, 0, 0});
     }
   collector.finish();
 }
 
 void touch_inside(const fem::Discretization& d, const Eigen::Matrix3Xd& nodes, const Tool& tool,
-                  const Eigen::Vector3d& at, bool widen, Touched& result) {
+                  const Eigen::Vector3d& at, bool widen, const Unmasked& unmasked, Touched& result) {
   const auto for_each = [&](const auto& visit) {
     for (std::size_t b = 0; b < d.blocks.size(); ++b) {
       const fem::ElementBlock& block = d.blocks[b];
@@ -157,7 +213,7 @@ void touch_inside(const fem::Discretization& d, const Eigen::Matrix3Xd& nodes, c
     const double s = (x - at).norm() / radius;
     if (s >= 1) return;
     const auto n = static_cast<std::size_t>(block.kind->node_count);
-    collector.add({block.nodes.data() + e * n, n}, shapes, falloff_weight(falloff, s),
+    collector.add({block.nodes.data() + e * n, n}, shapes, falloff_weight(falloff, s), unmasked.inside(b, e, q),
                   block.volumes[block.point_index(e, q)], x, {{}, q, b, e});
   });
   collector.finish();
@@ -168,7 +224,8 @@ void make_unit(Eigen::Vector3d& normal) {
   normal = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitZ();
 }
 
-Touched find(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside, double& away) {
+Touched find(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside, Masks masks,
+             double& away) {
   const fem::Discretization& d = document.discretization();
   const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, document.positions());
   const fem::SurfacePatch surface = fem::whole_surface(d, document.refinement().solid());
@@ -177,6 +234,7 @@ Touched find(const Document& document, const Tool& tool, const Eigen::Vector3d& 
   // itself.
   const Eigen::Vector3d nearest = subdiv::SurfaceTree(triangles.points, triangles.corners).nearest(at);
   away = (nearest - at).norm();
+  const Unmasked unmasked(document, masks);
   Touched result;
   if (away <= tool.radius && !inside) {
     const auto distance = [&](const Eigen::Vector3d& x) { return (x - at).norm(); };
@@ -184,12 +242,13 @@ Touched find(const Document& document, const Tool& tool, const Eigen::Vector3d& 
     fem::for_each_surface_point(surface, nodes, [&](const auto&, const fem::SurfacePoint& point) {
       closest = std::min(closest, distance(point.position));
     });
-    touch_surface(d, surface, nodes, tool, closest < tool.radius ? tool.radius : 1.5 * closest, distance, result);
+    touch_surface(d, surface, nodes, tool, closest < tool.radius ? tool.radius : 1.5 * closest, distance, unmasked,
+                  result);
   } else {
     const bool within = is_inside(triangles, at);
     if (!within && away > tool.radius) return result;
     result.inside = true;
-    touch_inside(d, nodes, tool, at, within, result);
+    touch_inside(d, nodes, tool, at, within, unmasked, result);
     result.normal = within ? Eigen::Vector3d(nearest - at) : Eigen::Vector3d(at - nearest);
   }
   if (result.empty()) return result;
@@ -205,7 +264,7 @@ Touched touched_near(const Document& document, const Tool& tool,
   const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, document.positions());
   Touched result;
   touch_surface(d, fem::whole_surface(d, document.refinement().solid()), nodes, tool, tool.radius, distance,
-                result);
+                Unmasked(document, Masks::protect), result);
   make_unit(result.normal);
   return result;
 }
@@ -220,14 +279,26 @@ std::vector<Eigen::Vector3d> nearest_on_surface(const Document& document, std::s
   return result;
 }
 
-Touched touched(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside) {
-  double away = 0;
-  return find(document, tool, at, inside, away);
+bool has_mask(const Document& document) {
+  const Eigen::VectorXd& mask = (*document.state().fields)[FieldName::mask];
+  return std::any_of(mask.begin(), mask.end(), [](double value) { return value > 0; });
 }
 
-Touched touch(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside) {
+void refuse_masked() {
+  throw Error(ErrorCode::bad_input,
+              "all that the tool would touch is masked; take the mask away there, as with `mask clear`, or work "
+              "beside it");
+}
+
+Touched touched(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside, Masks masks) {
   double away = 0;
-  Touched result = find(document, tool, at, inside, away);
+  return find(document, tool, at, inside, masks, away);
+}
+
+Touched touch(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside, Masks masks) {
+  double away = 0;
+  Touched result = find(document, tool, at, inside, masks, away);
+  if (result.masked) refuse_masked();
   if (result.empty())
     throw Error(
         ErrorCode::bad_input,

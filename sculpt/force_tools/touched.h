@@ -23,9 +23,11 @@ struct Touched {
   bool inside = false;
   std::vector<fem::PointStencil> points;  // in control points, each an affine combination
   std::vector<TouchedPlace> places;
-  Eigen::VectorXd falloffs;    // 0 … 1
+  Eigen::VectorXd falloffs;    // 0 … 1, times what the mask leaves
   Eigen::VectorXd weights;     // falloff times area (inside: rest volume), divided by `measure`: they sum to 1
   double measure = 0;          // Σ falloff · area [m²], inside · volume [m³]
+  double share = 1;            // of it, against what it were without a mask: a tool is so much weaker
+  bool masked = false;         // there is something, but the mask leaves nothing of it
   Eigen::Matrix3Xd positions;  // when touched [m]
   Eigen::Vector3d middle;      // their weighted mean [m]
   Eigen::Vector3d normal;      // mean outward normal; inside, towards the nearest surface
@@ -33,13 +35,23 @@ struct Touched {
   bool empty() const { return points.empty(); }
 };
 
+/// What protects is the field `mask`: at a point where it is m only 1 − m is touched.
+enum class Masks { protect, ignored };
+
+/// Whether the mask protects anything.
+[[nodiscard]] bool has_mask(const Document& document);
+
 /// Around `at` [m] on the body as it stands: its surface if that is within the tool's radius and `inside` is not
 /// asked for, else what is in it. A brush finer than the mesh is widened to 1.5 times the distance to the nearest
 /// point. Empty if there is nothing. Cost O(boundary quadrilaterals), inside O(elements).
-[[nodiscard]] Touched touched(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside);
+[[nodiscard]] Touched touched(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside,
+                              Masks masks = Masks::protect);
 
-/// The same. @throws Error (bad_input), with the distance, if there is nothing.
-[[nodiscard]] Touched touch(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside);
+/// The same. @throws Error (bad_input), with the distance, if there is nothing, or if all of it is masked.
+[[nodiscard]] Touched touch(const Document& document, const Tool& tool, const Eigen::Vector3d& at, bool inside,
+                            Masks masks = Masks::protect);
+/// @throws Error (bad_input) that says what to do where all is masked.
+[[noreturn]] void refuse_masked();
 
 /// Of the surface, what is nearer than the tool's radius by a distance of one's own [m]. Empty if there is nothing.
 [[nodiscard]] Touched touched_near(const Document& document, const Tool& tool,

@@ -35,7 +35,8 @@ class Twist : public ForceTool {
         right_(right_of(normal_, options.mirror)),
         sense_(options.invert ? -1 : 1) {
     const Eigen::Vector3d axis = mode_normal(patch_.modes.at_hold);
-    torsion_ = tool.strength * axis.dot(inertia(patch_.modes.at_hold) * axis);
+    tool_.strength *= patch_.touched.share;
+    torsion_ = tool_.strength * axis.dot(inertia(patch_.modes.at_hold) * axis);
   }
 
   void follow(const StrokePose& pose, const Document& document) override {

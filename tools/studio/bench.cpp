@@ -55,6 +55,7 @@ void Bench::begin_session(const std::filesystem::path& read_root) {
   };
   session.progress = [this](double share, const std::string& what) { go_on(share, what); };
   session_ = std::make_unique<sculpt::Session>(std::move(session));
+  preview({});
   marks_.clear();
   history_.clear();
   lines_ = 0;
@@ -133,6 +134,7 @@ bool Bench::run(const std::string& line) {
 
 bool Bench::run_together(const std::vector<std::string>& lines, bool joins_last) {
   if (stroke_) end_stroke(false);
+  preview({});
   const std::size_t depth = session_->undo_depth();
   played_last_ = false;
   bool well = true;
@@ -307,6 +309,7 @@ std::string tool_line(const sculpt::Tool& now, const sculpt::Tool& wanted) {
 
 void Bench::begin_stroke(const StrokeStart& start) {
   if (stroke_) return;
+  preview({});
   set_playing(false);
   played_last_ = false;
   stroke_depth_ = session_->undo_depth();
@@ -428,6 +431,12 @@ void Bench::play_step() {
 void Bench::show(const Shown& shown) {
   shown_ = shown;
   changed_ = whole_ = true;
+}
+
+void Bench::preview(std::vector<std::string> lines) {
+  if (lines == preview_) return;
+  preview_ = std::move(lines);
+  preview_changed_ = changed_ = true;
 }
 
 }  // namespace argil::studio

@@ -79,6 +79,8 @@ class Bench {
   void play_step();
 
   void show(const Shown& shown);
+  /// What these lines would make is shown from the next snapshot on, until anything is done; empty: nothing more.
+  void preview(std::vector<std::string> lines);
   const Shown& shown() const { return shown_; }
   void say(MessageKind kind, const std::string& text);
   void missed(long ticks) { missed_ticks_ += ticks; }
@@ -103,6 +105,10 @@ class Bench {
   void mark_change(std::size_t depth_before, bool joins_last);
   void remember(const std::string& line, std::size_t depth_before, bool repeats);
   void draw_scene(Snapshot& next);
+  [[nodiscard]] sculpt::PictureRequest request() const;
+  void lay_curve(Snapshot& next);
+  void mark_layers(Snapshot& next);
+  void draw_ghost(Snapshot& next);
   void move_scene(Snapshot& next);
   void read_document(Snapshot& next);
 
@@ -128,6 +134,8 @@ class Bench {
   std::optional<Eigen::Vector3d> stroke_from_;
   bool playing_ = false, played_last_ = false;
   Shown shown_;
+  std::vector<std::string> preview_;
+  bool preview_changed_ = false;
   std::filesystem::path file_;
   std::size_t lines_ = 0, saved_lines_ = 0;
   std::uint64_t solids_ = 0, tool_lines_ = 0;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/force_tools/curve.h"
+#include "sculpt/force_tools/touched.h"
 #include "sculpt/measures.h"
 #include "sculpt/obstacle_picture.h"
 #include "sculpt/scene.h"
 #include "sculpt/shown_fields.h"
 #include "subdiv/error.h"
 #include "tools/studio/bench.h"
+#include "tools/studio/ghost.h"
 
 namespace argil::studio {
 
@@ -21,6 +24,7 @@ bool same_faces(const sculpt::SceneSurface& a, const sculpt::SceneSurface& b) {
 }
 
 void bound(Snapshot& next) {
+  if (next.scene->surface.positions.empty()) return;  // all is cut away
   Eigen::Vector3f low = Eigen::Vector3f::Constant(HUGE_VALF), high = -low;
   for (const Eigen::Vector3f& position : next.scene->surface.positions) {
     low = low.cwiseMin(position);
@@ -40,14 +44,64 @@ std::vector<float> on_surface(const sculpt::SceneSurface& surface, const Eigen::
 
 }  // namespace
 
-void Bench::draw_scene(Snapshot& next) {
-  const sculpt::Document& document = session_->document();
+sculpt::PictureRequest Bench::request() const {
   sculpt::PictureRequest request;
   request.field = shown_.field;
   request.range = shown_.range;
   request.clip = shown_.clip;
   request.cage = shown_.cage;
   request.control_wire = !shown_.finest_wires;
+  request.peel = shown_.peel;
+  return request;
+}
+
+// How deep the solid can be peeled; what is left is at least its innermost layer.
+void Bench::mark_layers(Snapshot& next) {
+  next.layers = 0;
+  const subdiv::Solid& solid = session_->document().refinement().solid();
+  const auto depth = sculpt::cell_depths(solid);
+  for (const subdiv::CellId c : solid.cells()) next.layers = std::max(next.layers, static_cast<int>(depth[c]));
+  shown_.peel = std::clamp(shown_.peel, 0, next.layers);
+}
+
+void Bench::lay_curve(Snapshot& next) {
+  next.curve.reset();
+  if (shown_.curve.empty()) return;
+  const sculpt::Document& document = session_->document();
+  auto laid = std::make_shared<CurveOnSurface>();
+  try {
+    laid->handles = sculpt::nearest_on_surface(document, shown_.curve);
+    if (laid->handles.size() > 1) {
+      const sculpt::HandleCurve curve(laid->handles);
+      constexpr int k_pieces = 12;  // of a span: seen as a smooth line
+      const int pieces = k_pieces * static_cast<int>(std::lround(curve.end()));
+      std::vector<Eigen::Vector3d> places;
+      for (int i = 0; i <= pieces; ++i) {
+        places.push_back(curve.point(curve.end() * i / pieces));
+        laid->influences.push_back(curve.influences(curve.end() * i / pieces));
+      }
+      laid->line = sculpt::nearest_on_surface(document, places);
+    }
+    next.curve = laid;
+  } catch (const Error& error) {  // a solid that cannot be simulated as it is, or points that coincide
+    say(MessageKind::warning, error.what());
+  }
+}
+
+void Bench::draw_ghost(Snapshot& next) {
+  preview_changed_ = false;
+  next.ghost.reset();
+  if (preview_.empty() || !next.scene) return;
+  auto ghost =
+      std::make_shared<Ghost>(make_ghost(session_->document(), preview_, request(), next.scene->surface, options_));
+  ghost->layout = next.layout;
+  next.ghost = std::move(ghost);
+}
+
+void Bench::draw_scene(Snapshot& next) {
+  const sculpt::Document& document = session_->document();
+  mark_layers(next);
+  sculpt::PictureRequest request = this->request();
   std::shared_ptr<sculpt::Scene> scene;
   try {
     scene = std::make_shared<sculpt::Scene>(sculpt::make_scene(document, request));
@@ -63,6 +117,12 @@ void Bench::draw_scene(Snapshot& next) {
   next.layout = last_ ? last_->layout + (same ? 0 : 1) : 1;
   next.scene = scene;
   bound(next);
+  next.selectable.reset();
+  if (shown_.selectable) next.selectable = std::make_shared<Selectable>(selectable(document, scene->surface));
+  next.mask.clear();
+  if (sculpt::has_mask(document))
+    next.mask = on_surface(scene->surface, (*document.state().fields)[sculpt::FieldName::mask]);
+  lay_curve(next);
   next.young_modulus = on_surface(scene->surface, (*document.state().fields)[sculpt::FieldName::young_modulus]);
   try {
     next.strain = on_surface(scene->surface, sculpt::shown_field(document, "strain").values);
@@ -97,6 +157,11 @@ void Bench::move_scene(Snapshot& next) {
     }
   }
   next.scene = scene;
+  if (last_->state.fields != document.state().fields) {
+    next.mask.clear();
+    if (sculpt::has_mask(document))
+      next.mask = on_surface(scene->surface, (*document.state().fields)[sculpt::FieldName::mask]);
+  }
   bound(next);
 }
 
@@ -144,6 +209,11 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   const bool moving = stroke_ || playing_;
   if (empty) {
     next->scene.reset();
+    next->selectable.reset();
+    next->ghost.reset();
+    next->curve.reset();
+    next->mask.clear();
+    next->layers = 0;
     next->control_cells = next->elements = next->unknowns = next->pinned = 0;
   } else if (whole_ || !moving || !last_ || !last_->scene) {
     if (whole_ || !last_ || !last_->scene) {
@@ -152,9 +222,10 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
       next->shade_again = shade_again_;
       shade_again_ = false;
     }
-  } else if (last_->state.motion != document.state().motion) {
+  } else if (last_->state.motion != document.state().motion || last_->state.fields != document.state().fields) {
     move_scene(*next);
   }
+  if (preview_changed_ || next->layout != (last_ ? last_->layout : 0)) draw_ghost(*next);
   next->state = document.state();
   next->tool = document.state().tool;
   next->tool_number = tool_lines_;

@@ -39,7 +39,11 @@ namespace {
 
 // A hairline of the shelf stands between forces, paint, and the rest.
 bool parted(const ShelfTool& above, const ShelfTool& below) {
-  const auto group = [](ToolKind kind) { return kind == ToolKind::pin ? ToolKind::paint : kind; };
+  const auto group = [](ToolKind kind) {
+    return kind == ToolKind::pin || kind == ToolKind::mask ? ToolKind::paint
+           : kind == ToolKind::curve                       ? ToolKind::extrude
+                                                           : kind;
+  };
   return group(above.kind) != group(below.kind);
 }
 
@@ -81,8 +85,8 @@ void draw_shelf(Desk& desk, const Layout& layout) {
     std::string tooltip = std::string(tools[i].label) + ": " + tools[i].help;
     if (i < 9)
       tooltip += "  ·  " + desk.bindings.word_of(static_cast<Action>(static_cast<std::size_t>(Action::tool_1) + i));
-    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon, i == desk.settings.tool,
-                       tooltip))
+    if (ui.icon_button(tools[i].label, {place.x + margin, y, width, cell}, tools[i].icon,
+                       i == desk.settings.tool && !desk.settings.choosing, tooltip))
       desk.take_tool(i);
     y += step;
   }
@@ -340,11 +344,40 @@ void draw_hints(Desk& desk, const Layout& layout, const Perform& perform) {
 
   const ShelfTool& tool = desk.tool();
   std::vector<Hint> hints;
+  const auto hint = [&](const std::string& strong, const std::string& rest) { hints.push_back({strong, rest}); };
+  if (desk.pending.tool != nullptr) {
+    hint("Click", " or Enter does it");
+    hint("Esc", " drops it");
+    hint("Shift", " finely");
+  } else if (desk.settings.choosing) {
+    hint("Click", std::string(" selects ") + sculpt::word(*desk.settings.choosing));
+    hint("Ctrl", " adds");
+    hint("Double click", *desk.settings.choosing == sculpt::ElementType::edges ? " a loop" : " a whole piece");
+    hint("Right click", " what can be done");
+    hint(desk.bindings.word_of(Action::select_next_type), " goes on");
+  } else if (tool.kind == ToolKind::curve && desk.curve.finished) {
+    hint("Drag a handle", " draws the clay");
+    hint("Esc", " drops the curve");
+  } else if (tool.kind == ToolKind::curve) {
+    hint("Click", " on clay lays a point");
+    hint(desk.bindings.word_of(Action::erase), " takes the last");
+    hint(desk.bindings.word_of(Action::confirm), " finishes");
+    hint("Esc", " drops it");
+  }
+  if (!hints.empty()) {
+    if (desk.settings.peel > 0) hints.push_back({"Wheel", " peels"});
+    pill(hints, layout.timeline.y - ui.px(16));
+    return;
+  }
   hints = {{"Drag", std::string(" on clay ") + tool.verb}, {"drag beside", " orbits"}};
   if (tool.kind != ToolKind::extrude) hints.push_back({desk.bindings.word_of(Action::brush_radius), " radius"});
   if (tool.kind != ToolKind::extrude && tool.kind != ToolKind::probe) hints.push_back({"Ctrl", " inverts"});
   if (tool.kind == ToolKind::force) hints.push_back({"Shift", " smooths"});
-  if (desk.settings.cut) hints.push_back({"Wheel", " moves the cut"});
+  if (desk.settings.peel > 0)
+    hints.push_back({"Wheel", " peels"});
+  else if (desk.settings.cut)
+    hints.push_back({"Wheel", " moves the cut"});
+  hints.push_back({desk.bindings.word_of(Action::select_next_type), " selects"});
   pill(hints, layout.timeline.y - ui.px(16));
 }
 

@@ -26,7 +26,11 @@ const std::vector<ShelfTool>& known_tools() {
        "density"},
       {paint, "paint_damping", "Paint damping", "damps", "Makes motion die out faster; inverted slower",
        icons::damping, "damping"},
+      {mask, "paint_mask", "Mask", "masks", "Protects clay from all other tools; inverted it takes the mask away",
+       icons::layers},
       {pin, "pin_brush", "Pin", "pins", "Holds control points where they are; inverted lets go", icons::pin},
+      {curve, "", "Curve", "lays a curve",
+       "Clicks lay a curve on the clay, Enter finishes it; then its handles draw the clay", icons::branch},
       {extrude, "", "Extrude", "draws a face out", "Draws a face of the control solid out into a new cell",
        icons::cube},
       {probe, "probe", "Probe", "feels", "Touches without changing, and reads how stiff it feels", icons::probe},
@@ -65,6 +69,15 @@ void Desk::take_tool(std::size_t index) {
   if (index >= shelf_tools().size()) return;
   settings.tool = index;
   settings.panel = Panel::tool;
+  // A tool of the shelf works on clay: selecting is over.
+  if (pending.tool != nullptr) {
+    pending = {};
+    workshop->preview({});
+  }
+  if (settings.choosing) {
+    settings.choosing.reset();
+    show();
+  }
   if (*tool().name != '\0') brush.name = tool().name;
   // What is painted should be seen; clay comes back with the next tool.
   const bool paints = *tool().field != '\0';
@@ -123,6 +136,9 @@ void Desk::show() const {
   if (settings.cut) shown.clip = sculpt::ClipPlane{settings.cut_point, settings.cut_normal};
   shown.cage = settings.cage;
   shown.finest_wires = settings.finest_wires;
+  shown.peel = settings.peel;
+  shown.selectable = settings.choosing.has_value();
+  shown.curve = curve.points;
   workshop->post([shown](Bench& bench) { bench.show(shown); });
 }
 

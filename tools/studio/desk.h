@@ -2,9 +2,12 @@
 // What the parts of the window share: the snapshot that this frame shows, the sculptor's settings, and the way from
 // an action to an order of the workshop.
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "tools/studio/edit_tools.h"
 #include "tools/studio/keys.h"
 #include "tools/studio/ui.h"
 #include "tools/studio/workshop.h"
@@ -12,7 +15,15 @@
 namespace argil::studio {
 
 /// What the pointer does on clay.
-enum class ToolKind { force, paint, pin, extrude, probe };  // a hairline of the shelf stands between two
+enum class ToolKind {
+  force,
+  paint,
+  mask,
+  pin,
+  extrude,
+  curve,
+  probe
+};  // a hairline of the shelf stands between two
 
 struct ShelfTool {
   ToolKind kind;
@@ -34,7 +45,9 @@ struct Settings {
   bool keep_shape = true, wireframe = true, finest_wires = false, cage = false, light = false, panels = true;
   bool cut = false, field_of_tool = false;
   Eigen::Vector3d cut_point = Eigen::Vector3d::Zero(), cut_normal{0, -1, 0};
-  std::string field;  // empty: clay
+  int peel = 0;                                 // layers of cells that are taken away
+  std::optional<sculpt::ElementType> choosing;  // select mode, and of what; none: sculpting
+  std::string field;                            // empty: clay
   bool fixed_range = false;
   double range_low = 0, range_high = 1;
   Panel panel = Panel::tool;
@@ -45,6 +58,12 @@ struct Reading {
   bool there = false;
   double young_modulus = 0, strain = -1, felt = 0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
+};
+
+/// A curve while it is laid on the clay, and once it can be drawn by its handles.
+struct CurveLaid {
+  std::vector<Eigen::Vector3d> points;
+  bool finished = false;
 };
 
 /// What has the keyboard in front of everything else.
@@ -60,6 +79,11 @@ struct Desk {
   std::uint64_t brush_solid = 0, brush_line = 0;  // of the snapshot that the brush follows
   sculpt::Tool fitted_brush;                      // chosen to fit the solid
   Reading reading;
+  std::optional<std::uint32_t> pointed;  // the element under the pointer in select mode
+  PendingEdit pending;
+  CurveLaid curve;
+  bool wants_context_menu = false;                                      // where the pointer is
+  std::array<float, 2> context_menu_at{-1, -1};                         // where it stands open [pixels]
   Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame
   std::string typed;                                                    // in the dialogue
   std::size_t chosen = 0;                                               // of what a search found

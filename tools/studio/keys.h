@@ -74,9 +74,46 @@ enum class Action {
   coarser,
   panels,
   theme,
-  first_minute
+  first_minute,
+  confirm,
+  erase,
+  select_next_type,
+  select_all,
+  select_none,
+  select_inverse,
+  select_grow,
+  select_shrink,
+  select_component,
+  select_loop,
+  select_ring,
+  select_name,
+  edit_extrude,
+  edit_peak,
+  edit_move,
+  edit_scale,
+  edit_turn,
+  edit_split,
+  edit_cut_ring,
+  edit_cut_plane,
+  edit_remove,
+  edit_merge,
+  edit_bridge,
+  edit_fill,
+  edit_weld,
+  edit_collapse,
+  edit_sharpen,
+  edit_smooth,
+  edit_duplicate,
+  edit_mirror,
+  edit_pin,
+  edit_unpin,
+  mask_clear,
+  mask_invert,
+  mask_selected,
+  mask_unselected,
+  peel
 };
-inline constexpr std::size_t k_action_count = static_cast<std::size_t>(Action::first_minute) + 1;
+inline constexpr std::size_t k_action_count = static_cast<std::size_t>(Action::peel) + 1;
 
 struct ActionInfo {
   Action action;

@@ -25,7 +25,8 @@ void draw_actions(Desk& desk, const Menu& menu, const Perform& perform) {
                         (action.action == keep_shape && s.keep_shape) ||
                         (action.action == wireframe && s.wireframe) || (action.action == cage && s.cage) ||
                         (action.action == cut_away && s.cut) || (action.action == theme && s.light) ||
-                        (action.action == panels && s.panels) || (is_tool && number == s.tool);
+                        (action.action == panels && s.panels) || (action.action == peel && s.peel > 0) ||
+                        (action.action == select_next_type && s.choosing) || (is_tool && number == s.tool);
     const bool enabled = action.action == undo   ? desk.now->undo_depth > 0
                          : action.action == redo ? desk.now->redo_depth > 0
                                                  : true;

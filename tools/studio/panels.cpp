@@ -8,6 +8,7 @@
 
 #include "sculpt/document_loads.h"
 #include "tools/studio/quantity.h"
+#include "tools/studio/select_mode.h"
 
 namespace argil::studio {
 
@@ -84,7 +85,7 @@ void tool_panel(Desk& desk, float x, float width) {
                    .high = std::max(2 * size, brush.radius),
                    .reset = rounded(0.35 * size),
                    .logarithmic = true});
-    if (tool.kind == ToolKind::force) {
+    if (tool.kind == ToolKind::force || tool.kind == ToolKind::curve) {
       ui.number_row(
           "Strength", brush.strength,
           {.unit = "N/m",
@@ -121,7 +122,7 @@ void tool_panel(Desk& desk, float x, float width) {
             "Symmetry", axes, axis,
             "Its mirror image along this axis acts as well  ·  " + desk.bindings.word_of(Action::symmetry)))
       brush.symmetry = axis == 0 ? '\0' : axes[axis].front();
-    if (tool.kind == ToolKind::force)
+    if (tool.kind == ToolKind::force || tool.kind == ToolKind::curve)
       ui.toggle_row("Keep the shape", desk.settings.keep_shape, desk.tooltip(Action::keep_shape));
   }
   ui.section("Under the brush");
@@ -269,7 +270,10 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
   ui.set_cursor(left, body.y + ui.px(2) - ImGui::GetScrollY(), width);
   switch (desk.settings.panel) {
     case Panel::tool:
-      tool_panel(desk, left, width);
+      if (desk.settings.choosing)
+        draw_select_panel(desk, left, width, perform);
+      else
+        tool_panel(desk, left, width);
       break;
     case Panel::material:
       material_panel(desk);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "sculpt/shown_fields.h"
 #include "tools/studio/panels.h"
@@ -74,6 +75,19 @@ void draw_fields_panel(Desk& desk, const Perform& perform) {
   ui.section("Cut away");
   bool cut = s.cut;
   if (ui.toggle_row("Cut", cut, desk.tooltip(Action::cut_away))) perform(Action::cut_away);
+  if (desk.now->scene && desk.now->layers > 0) {
+    double peel = s.peel;
+    if (ui.number_row(
+            "Peel", peel,
+            {.unit = "layers",
+             .tooltip = "Of cells, taken away from the boundary inwards  ·  " + desk.bindings.word_of(Action::peel),
+             .low = 0,
+             .high = static_cast<double>(desk.now->layers),
+             .reset = 0})) {
+      s.peel = static_cast<int>(std::lround(peel));
+      desk.show();
+    }
+  }
   if (s.cut) {
     double at[3] = {s.cut_point.x(), s.cut_point.y(), s.cut_point.z()};
     double normal[3] = {s.cut_normal.x(), s.cut_normal.y(), s.cut_normal.z()};

@@ -11,6 +11,7 @@
 #include "sculpt/picture.h"
 #include "tools/studio/file_browser.h"
 #include "tools/studio/safekeeping.h"
+#include "tools/studio/selectable.h"
 
 namespace argil::studio {
 
@@ -20,7 +21,29 @@ struct Shown {
   std::optional<std::array<double, 2>> range;  // else of the field's values
   std::optional<sculpt::ClipPlane> clip;
   bool cage = false;
-  bool finest_wires = false;  // else only those between control cells
+  bool finest_wires = false;           // else only those between control cells
+  int peel = 0;                        // layers taken away from the boundary
+  bool selectable = false;             // what of the control solid shows where
+  std::vector<Eigen::Vector3d> curve;  // points to lay a curve through; empty: none
+};
+
+/// What an edit would make (ghost.h).
+struct Ghost {
+  std::vector<std::string> lines;
+  std::string fault;                                                                 // empty: it can be done
+  std::size_t cells_made = 0, cells_removed = 0, faces_made = 0, faces_removed = 0;  // faces: of the boundary
+  std::vector<Eigen::Vector3f> corners;  // of the surface that would be new, three a triangle [m]
+  std::vector<std::array<Eigen::Vector3f, 2>> wire;
+  std::vector<float> shares;  // of each corner: how new it is, 0 … 1
+  std::vector<float> gone;    // of each vertex of the surface drawn: how far it would go, 0 … 1
+  std::uint64_t layout = 0;   // of the snapshot that has that surface
+};
+
+/// A curve as it lies on the surface now.
+struct CurveOnSurface {
+  std::vector<Eigen::Vector3d> handles;     // the nearest places to the points that were asked for
+  std::vector<Eigen::Vector3d> line;        // from the first to the last
+  std::vector<Eigen::VectorXd> influences;  // of the handles at each point of the line
 };
 
 struct HistoryEntry {
@@ -48,10 +71,15 @@ struct Snapshot {
   // What is drawn.
   std::uint64_t layout = 0;  // another one: faces, not only places, have changed
   std::uint64_t version = 0;
-  std::uint64_t solid_number = 0;              // another one: a solid was begun or opened
-  bool shade_again = false;                    // came to rest: hollows may be measured anew
-  std::shared_ptr<const sculpt::Scene> scene;  // null: there is no solid
-  std::vector<float> young_modulus, strain;    // per surface vertex, as of the last rest; may be empty
+  std::uint64_t solid_number = 0;                // another one: a solid was begun or opened
+  bool shade_again = false;                      // came to rest: hollows may be measured anew
+  std::shared_ptr<const sculpt::Scene> scene;    // null: there is no solid
+  std::vector<float> young_modulus, strain;      // per surface vertex, as of the last rest; may be empty
+  std::vector<float> mask;                       // per surface vertex; empty: nothing is masked
+  std::shared_ptr<const Selectable> selectable;  // of this layout; null where nobody asked
+  std::shared_ptr<const Ghost> ghost;            // of the lines that were asked for last; null: none
+  std::shared_ptr<const CurveOnSurface> curve;   // null: none
+  int layers = 0;                                // of finest cells that can be peeled away
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  // of the surface [m]
 
   Eigen::Vector3d rest_middle = Eigen::Vector3d::Zero();  // of the rest shape: what symmetry mirrors about

@@ -183,6 +183,8 @@ void Studio::frame(const Input& input) {
   draw_timeline(desk_, layout, perform_here);
   draw_status(desk_, layout);
   draw_hints(desk_, layout, perform_here);
+  draw_pending(desk_, layout.free, viewport_->select_mode());
+  draw_context_menu(desk_, perform_here);
   draw_work(desk_, layout);
   draw_offer(desk_, layout);
   draw_dialogues(desk_, layout, perform_here, input.width, input.height);

@@ -227,9 +227,24 @@ bool Ui::text_field(const char* name, const Rect& place, std::string& line, cons
   const float height = ImGui::GetFontSize() + 2 * px(5);
   ImGui::SetCursorScreenPos({place.x, place.y + 0.5F * (place.height - height)});
   ImGui::PushItemWidth(place.width);
-  if (take_focus) ImGui::SetKeyboardFocusHere();
-  entered =
-      ImGui::InputTextWithHint("##text", hint, buffer.data(), buffer.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  // What is there already is gone on with, not written over: the caret goes to its end with the focus.
+  int* const caret_frames = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##caret"), 0);
+  if (take_focus) {
+    ImGui::SetKeyboardFocusHere();
+    *caret_frames = 2;
+  }
+  const auto to_end = [](ImGuiInputTextCallbackData* text) {
+    int& frames = *static_cast<int*>(text->UserData);
+    if (frames > 0) {
+      --frames;
+      text->CursorPos = text->BufTextLen;
+      text->ClearSelection();
+    }
+    return 0;
+  };
+  entered = ImGui::InputTextWithHint("##text", hint, buffer.data(), buffer.size(),
+                                     ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways,
+                                     to_end, caret_frames);
   ImGui::PopItemWidth();
   ImGui::PopID();
   note_control(ControlKind::text, name, tooltip, "", place);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/studio/curve_mode.h"
+
 namespace argil::studio {
 
 namespace {
@@ -16,14 +18,22 @@ std::string place_words(const Eigen::Vector3d& p) {
 
 }  // namespace
 
-Viewport::Viewport(const view::Gl& gl) : gl_(&gl), painter_(gl) {}
+Viewport::Viewport(const view::Gl& gl) : gl_(&gl), painter_(gl), overlay_(gl) {}
 
 Box Viewport::box_of(const Snapshot& now) const {
   return {now.low, now.high};
 }
 
 bool Viewport::perform(Desk& desk, Action action) {
+  if (action == Action::cancel && drag_ == Drag::none && (select_.cancel(desk) || perform_curve(desk, action)))
+    return true;
+  if (select_.perform(desk, camera_, action, x_, y_) || (action != Action::cancel && perform_curve(desk, action)))
+    return true;
   switch (action) {
+    case Action::peel:
+      desk.settings.peel = desk.settings.peel > 0 ? 0 : std::min(1, desk.now->layers);
+      desk.show();
+      return true;
     case Action::frame_all:
       if (desk.now->scene) camera_.frame(box_of(*desk.now));
       return true;
@@ -79,11 +89,13 @@ void Viewport::key_released(Desk& desk, int released) {
 
 void Viewport::update_hover(Desk& desk, bool over_ui) {
   hover_.reset();
+  desk.pointed.reset();
   const Snapshot& now = *desk.now;
   const bool sizes = drag_ == Drag::radius || drag_ == Drag::strength;
   if (!now.scene || over_ui || !now.scene->draw_surface || (drag_ != Drag::none && !sizes)) return;
   const Ray ray = sizes ? camera_.ray(pressed_x_, pressed_y_) : camera_.ray(x_, y_);
   hover_ = pick(now.scene->surface, ray);
+  select_.hover(desk, hover_);
   Reading& reading = desk.reading;
   reading.there = hover_.has_value();
   if (!hover_) return;
@@ -103,17 +115,54 @@ Eigen::Vector3d Viewport::on_stroke_plane(double x, double y) const {
   return ray.origin + normal.dot(origin - ray.origin) / facing * ray.direction;
 }
 
+bool Viewport::press_on_plane(Desk& desk) {
+  const Settings& settings = desk.settings;
+  if (!settings.cut || !desk.now->scene) return false;
+  const Eigen::Vector2d handle = camera_.pixel(settings.cut_point);
+  if ((handle - Eigen::Vector2d(x_, y_)).norm() >= desk.ui->px(12)) return false;
+  drag_ = Drag::plane;
+  return true;
+}
+
+// What is pending takes the press: let go, it is done. Else it chooses.
+bool Viewport::press_in_select_mode(Desk& desk, const Input& input) {
+  (void)input;
+  if (desk.pending.tool != nullptr) {
+    drag_ = Drag::amount;
+    return true;
+  }
+  if (!desk.settings.choosing) return false;
+  select_.press(desk, x_, y_);
+  drag_ = Drag::choose;
+  return true;
+}
+
+bool Viewport::press_on_curve(Desk& desk, const Input& input) {
+  if (desk.tool().kind != ToolKind::curve) return false;
+  const auto handle = handle_at(desk, camera_, x_, y_);
+  if (!desk.curve.finished) {
+    if (!hover_) return false;
+    if (!handle) add_curve_point(desk, camera_, hover_->at);
+    drag_ = Drag::orbit;  // the point lies; going on turns the view
+    return true;
+  }
+  if (!handle) {
+    drag_ = Drag::orbit;
+    return true;
+  }
+  drag_ = Drag::handle;
+  handle_ = *handle;
+  grip_ = device_ = desk.now->curve->handles[handle_];
+  depth_ = 0;
+  desk.force_plot.clear();
+  desk.workshop->begin_stroke(handle_stroke(desk, handle_, input.pressure));
+  return true;
+}
+
 void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
   pressed_x_ = x_;
   pressed_y_ = y_;
-  const Settings& settings = desk.settings;
-  if (settings.cut && desk.now->scene) {
-    const Eigen::Vector2d handle = camera_.pixel(settings.cut_point);
-    if ((handle - Eigen::Vector2d(x_, y_)).norm() < desk.ui->px(12)) {
-      drag_ = Drag::plane;
-      return;
-    }
-  }
+  if (press_on_plane(desk) || press_in_select_mode(desk, input) || press_on_curve(desk, input)) return;
   if (!hover_) {
     drag_ = Drag::orbit;
     return;
@@ -145,7 +194,7 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
 // something on the clay goes over its surface.
 void Viewport::move_device(Desk& desk, double pressure) {
   device_ = on_stroke_plane(x_, y_);
-  if (desk.tool().kind != ToolKind::force && desk.now->scene)
+  if (drag_ == Drag::stroke && desk.tool().kind != ToolKind::force && desk.now->scene)
     if (const auto hit = pick(desk.now->scene->surface, camera_.ray(x_, y_))) device_ = hit->at;
   sculpt::StrokePose pose;
   pose.position = device_;
@@ -173,7 +222,13 @@ void Viewport::drag(Desk& desk, const Input& input, bool shift) {
       camera_.pan(right, up);
       break;
     case Drag::stroke:
+    case Drag::handle:
       move_device(desk, input.pressure);
+      break;
+    case Drag::choose:
+      break;
+    case Drag::amount:
+      select_.follow(desk, camera_, x_, y_, shift);
       break;
     case Drag::extrude:
       device_ = on_stroke_plane(x_, y_);
@@ -208,6 +263,17 @@ void Viewport::release(Desk& desk) {
     case Drag::stroke:
       desk.workshop->end_stroke(desk.settings.keep_shape && desk.tool().kind == ToolKind::force);
       break;
+    case Drag::handle:
+      desk.workshop->end_stroke(desk.settings.keep_shape);
+      if (handle_ < desk.curve.points.size()) {
+        desk.curve.points = desk.now->curve ? desk.now->curve->handles : desk.curve.points;
+        desk.curve.points[handle_] = device_;
+        desk.show();
+      }
+      break;
+    case Drag::amount:
+      select_.commit(desk);
+      break;
     case Drag::extrude: {
       const double distance = (device_ - grip_).dot(grip_normal_);
       const Eigen::Vector3d eye = camera_.eye(), direction = (grip_ - eye).normalized();
@@ -229,7 +295,8 @@ void Viewport::release(Desk& desk) {
 }
 
 void Viewport::cancel(Desk& desk) {
-  if (drag_ == Drag::stroke) desk.workshop->cancel_stroke();
+  if (drag_ == Drag::stroke || drag_ == Drag::handle) desk.workshop->cancel_stroke();
+  select_.drop_box();
   drag_ = Drag::none;
 }
 
@@ -246,10 +313,11 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
   }
   camera_.advance(input.seconds);
   update_hover(desk, over_ui);
+  select_.advance(desk, camera_, x_, y_);
 
   const bool pressed_left = input.buttons[0] && !left_, released_left = !input.buttons[0] && left_;
   const bool pressed_middle = input.buttons[2] && !middle_, released_middle = !input.buttons[2] && middle_;
-  const bool pressed_right = input.buttons[1] && !right_;
+  const bool pressed_right = input.buttons[1] && !right_, released_right = !input.buttons[1] && right_;
   left_ = input.buttons[0];
   right_ = input.buttons[1];
   middle_ = input.buttons[2];
@@ -259,7 +327,22 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
     release(desk);
   } else if (sizes && pressed_right) {
     drag_ = Drag::none;
+  } else if (released_left && drag_ == Drag::choose) {
+    drag_ = Drag::none;
+    select_.release(desk, camera_, x_, y_, control, shift);
   } else if (drag_ == Drag::none && !over_ui) {
+    if (pressed_right) {
+      right_x_ = x_;
+      right_y_ = y_;
+      if (desk.pending.tool != nullptr)
+        select_.cancel(desk);
+      else
+        right_armed_ = true;
+    }
+    if (released_right && std::exchange(right_armed_, false) &&
+        std::hypot(x_ - right_x_, y_ - right_y_) < desk.ui->px(5))
+      desk.wants_context_menu = true;
+    if (x_ != last_x_ || y_ != last_y_) select_.follow(desk, camera_, x_, y_, shift);
     if (pressed_left) press(desk, input, control, shift);
     if (pressed_middle) drag_ = shift ? Drag::pan : Drag::orbit;
   } else if (drag_ != Drag::none && (x_ != last_x_ || y_ != last_y_)) {
@@ -270,9 +353,14 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
     release(desk);
 
   if (input.wheel != 0 && !over_ui) {
-    if (drag_ == Drag::stroke) {
+    if (select_.wheel(desk, input.wheel)) {
+    } else if (drag_ == Drag::stroke || drag_ == Drag::handle) {
       depth_ += 12 * input.wheel * camera_.pixel_size(grip_);
       move_device(desk, input.pressure);
+    } else if (desk.settings.peel > 0 && !control) {
+      desk.settings.peel =
+          std::clamp(desk.settings.peel + (input.wheel > 0 ? 1 : -1), 1, std::max(1, desk.now->layers));
+      desk.show();
     } else if (desk.settings.cut && !control) {
       move_plane(desk, -0.02 * input.wheel * 2 * box_of(*desk.now).radius());
     } else {

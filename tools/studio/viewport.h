@@ -8,6 +8,8 @@
 #include "tools/studio/desk.h"
 #include "tools/studio/input.h"
 #include "tools/studio/picking.h"
+#include "tools/studio/select_mode.h"
+#include "tools/view/overlay_painter.h"
 #include "tools/view/scene_painter.h"
 
 namespace argil::studio {
@@ -29,10 +31,15 @@ class Viewport {
   void draw_marks(Desk& desk);
 
   const OrbitCamera& camera() const { return camera_; }
+  const SelectMode& select_mode() const { return select_; }
   bool is_busy() const { return drag_ != Drag::none; }
 
  private:
-  enum class Drag { none, stroke, extrude, orbit, pan, plane, radius, strength };
+  enum class Drag { none, stroke, handle, extrude, choose, amount, orbit, pan, plane, radius, strength };
+  bool press_on_plane(Desk& desk);
+  bool press_in_select_mode(Desk& desk, const Input& input);
+  bool press_on_curve(Desk& desk, const Input& input);
+  void update_overlay(const Desk& desk);
   void press(Desk& desk, const Input& input, bool control, bool shift);
   void drag(Desk& desk, const Input& input, bool shift);
   void release(Desk& desk);
@@ -45,6 +52,14 @@ class Viewport {
 
   const view::Gl* gl_;
   view::ScenePainter painter_;
+  view::OverlayPainter overlay_;
+  std::vector<std::uint64_t> overlaid_;  // all that the overlay depends on
+  bool overlay_changed_ = true;
+  std::uint64_t overlaid_version_ = 0;
+  SelectMode select_;
+  std::size_t handle_ = 0;            // of the curve, while it is drawn
+  bool right_armed_ = false;          // it may be a click
+  double right_x_ = 0, right_y_ = 0;  // where the right button went down
   std::unique_ptr<view::SampledTarget> target_;
   view::Place place_;
   OrbitCamera camera_;

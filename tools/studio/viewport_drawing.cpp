@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "tools/studio/quantity.h"
@@ -65,7 +66,8 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
 
   // The brush, on the surface itself.
   view::BrushMark mark;
-  const bool shows_brush = now.scene && desk.tool().kind != ToolKind::extrude;
+  const bool shows_brush =
+      now.scene && desk.tool().kind != ToolKind::extrude && !desk.settings.choosing && desk.pending.tool == nullptr;
   const double radius = drag_ == Drag::radius ? brush_now_ : desk.brush.radius;
   mark.radius = static_cast<float>(radius / place_.radius);
   mark.falloff = desk.brush.falloff == "linear" ? 1 : desk.brush.falloff == "constant" ? 2 : 0;
@@ -89,6 +91,7 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
     const Eigen::Vector3d reach = now.stroke->held + now.stroke->force.normalized() * place_.radius;
     if (reach.allFinite()) box = {box.low.cwiseMin(reach), box.high.cwiseMax(reach)};
   }
+  update_overlay(desk);
   // Where nothing moved, the picture of before is taken again.
   const view::Camera camera = camera_.camera(place_, box);
   std::vector<float> drawn(camera.clip_from_world.data(), camera.clip_from_world.data() + 16);
@@ -101,17 +104,18 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
        {static_cast<double>(mark.radius), static_cast<double>(mark.falloff), static_cast<double>(mark.tint.red),
         static_cast<double>(arrow_tint.red), settings.wireframe ? 1.0 : 0.0, settings.light ? 1.0 : 0.0})
     drawn.push_back(static_cast<float>(value));
-  if (!scene_changed_ && drawn == drawn_) {
+  if (!scene_changed_ && !overlay_changed_ && drawn == drawn_) {
     target_->resolve(framebuffer);
     return;
   }
   painter_.set_brush(std::move(mark));
   painter_.set_arrows(std::move(arrows), arrow_tint);
   drawn_ = std::move(drawn);
-  scene_changed_ = false;
+  scene_changed_ = overlay_changed_ = false;
   target_->bind();
   const view::Sampling sampling{input.width, input.height, 1, input.scale};
   painter_.paint(camera, sampling, 0, 0);
+  overlay_.paint(camera, sampling);
   target_->resolve(framebuffer);
 }
 
@@ -125,6 +129,18 @@ void Viewport::draw_marks(Desk& desk) {
     const Rect place{static_cast<float>(at.x()), static_cast<float>(at.y()) - 0.5F * height, width, height};
     ui.box(draw, place, faded(t.panel, 0.92F), 4);
     ui.text(draw, ui.fonts().small_strong, place, colour, line, Side::centre);
+  };
+  // What takes more than a line is wrapped, and stays within the view.
+  const auto note = [&](const std::string& text, Ink colour) {
+    const float most = ui.px(360), margin = ui.px(8);
+    const ImVec2 size =
+        ui.fonts().small_strong->CalcTextSizeA(ui.fonts().small_strong->FontSize, FLT_MAX, most, text.c_str());
+    Rect place{static_cast<float>(x_) + ui.px(18), static_cast<float>(y_) + ui.px(14), size.x + 2 * margin,
+               size.y + margin};
+    place.x = std::min(place.x, ImGui::GetIO().DisplaySize.x - place.width - ui.px(desk.settings.panels ? 320 : 8));
+    ui.box(draw, place, faded(t.panel, 0.92F), 4);
+    draw.AddText(ui.fonts().small_strong, ui.fonts().small_strong->FontSize,
+                 {place.x + margin, place.y + 0.5F * margin}, colour, text.c_str(), nullptr, most);
   };
   const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ink colour, float width) {
     const Eigen::Vector2d from = camera_.pixel(a), to = camera_.pixel(b);
@@ -142,6 +158,17 @@ void Viewport::draw_marks(Desk& desk) {
                           v = Eigen::Vector3d::Unit((axis + 2) % 3) * half[(axis + 2) % 3];
     const Eigen::Vector3d corners[] = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
     for (int i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], faded(t.mark, 0.55F), 1);
+  }
+  if (const auto box = drag_ == Drag::choose ? select_.box(desk, x_, y_) : std::nullopt) {
+    const ImVec2 low{static_cast<float>(box->left), static_cast<float>(box->top)},
+        high{static_cast<float>(box->right), static_cast<float>(box->bottom)};
+    draw.AddRectFilled(low, high, faded(t.accent, 0.12F));
+    draw.AddRect(low, high, faded(t.accent, 0.8F), 0, 0, ui.px(1));
+  }
+  if (desk.pending.tool != nullptr && now.ghost && now.ghost->lines == desk.pending.lines()) {
+    std::string said = now.ghost->fault.empty() ? counts_of(*now.ghost) : now.ghost->fault;
+    if (const std::size_t more = said.find(';'); !now.ghost->fault.empty() && more != said.npos) said.resize(more);
+    note(said, now.ghost->fault.empty() ? t.accent : t.warning);
   }
   if (desk.settings.cut && now.scene) {
     const Settings& s = desk.settings;
@@ -181,7 +208,7 @@ void Viewport::draw_marks(Desk& desk) {
       desk.time - desk.message_since < 3 && desk.dialogue == Dialogue::none) {
     std::string said = now.messages.back().text;
     if (const std::size_t more = said.find(';'); more != said.npos) said.resize(more);
-    label(Eigen::Vector2d(x_ + ui.px(18), y_ + ui.px(24)), said, t.warning);
+    note(said, t.warning);
   }
   if (drag_ == Drag::radius || drag_ == Drag::strength) {
     const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");

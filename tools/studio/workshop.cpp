@@ -68,6 +68,10 @@ void Workshop::end_stroke(bool keep) {
   post([keep](Bench& bench) { bench.end_stroke(keep); });
 }
 
+void Workshop::preview(std::vector<std::string> lines) {
+  post([lines = std::move(lines)](Bench& bench) { bench.preview(lines); });
+}
+
 void Workshop::cancel_stroke() {
   post([](Bench& bench) { bench.cancel_stroke(); });
 }

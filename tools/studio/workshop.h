@@ -45,6 +45,8 @@ class Workshop {
   void move_device(const sculpt::StrokePose& pose);
   void begin_stroke(const StrokeStart& start);
   void end_stroke(bool keep);
+  /// As Bench::preview; of several in the queue only the last is made.
+  void preview(std::vector<std::string> lines);
   void cancel_stroke();
 
   // Another device than the mouse. It sculpts while its first button is down; the mouse stays there beside it.
