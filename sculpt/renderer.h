@@ -104,7 +104,8 @@ struct Scene {
   std::optional<SceneFelt> felt{};
   std::optional<SceneLegend> legend;  // with values: its map between low and high
   bool draw_surface = true;
-  /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty: none.
+  /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty:
+  /// none.
   std::vector<Eigen::Vector3f> framed;
 };
 

@@ -54,9 +54,9 @@ StepReport Integrator::Impl::explicit_step(const Loads& loads, BodyState& state,
   const LedStep led = led_step(loads.led, state, h);
   set_led_columns(loads.led, led_columns(loads.led, state.velocities), now.v);
   // 3 x control points, zero but where points are led.
-  const auto spread = [&](const Eigen::Matrix3Xd& columns) {
+  const auto spread = [&](const Eigen::Matrix3Xd& of_led) {
     Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, size());
-    set_led_columns(loads.led, columns, all);
+    set_led_columns(loads.led, of_led, all);
     return all;
   };
   const auto accelerations = [&](const Motion& at) {

@@ -46,7 +46,7 @@ TEST(StudioCrashSlow, EveryFinishedStrokeComesBack) {
   const std::string journal = read_bytes(folder / "whole/journal.argil");
 
   const char* asked = std::getenv("ARGIL_KILLS");
-  const int kills = asked ? std::atoi(asked) : 6;
+  const int kills = asked ? std::atoi(asked) : 3;
   std::mt19937 random(23);
   int killed = 0, offered = 0;
   for (int i = 0; i < kills; ++i) {

@@ -27,7 +27,8 @@ class OwnedDevice {
   virtual sculpt::Device& device() = 0;
 };
 /// `gamepad`, `space_mouse`, `hand` (a simulated one that presses on a floor, for trying things out), or
-/// `network ADDRESS:PORT`. @throws (bad_input) for a faulty address, Error (not_found) for another name, with those that can be opened; (unsupported) where it is missing.
+/// `network ADDRESS:PORT`. @throws (bad_input) for a faulty address, Error (not_found) for another name, with those
+/// that can be opened; (unsupported) where it is missing.
 [[nodiscard]] std::unique_ptr<OwnedDevice> open_device(const std::string& name);
 
 /// How well this machine keeps a tick of 1 ms: a simulated hand presses on a floor by the real clock.

@@ -82,6 +82,7 @@ class Workshop {
   /// The frame's thread says when it draws. Lines that run in a frame are counted: there must be none.
   void frame_begins() { frame_thread_.store(std::this_thread::get_id()); }
   void frame_ends() { frame_thread_.store(std::thread::id{}); }
+  bool is_in_frame() const { return frame_thread_.load() == std::this_thread::get_id(); }
   long lines_run_in_frames() const { return lines_in_frames_.load(); }
 
   /// Of tests, while no thread runs.

@@ -31,7 +31,8 @@ std::filesystem::path found(const std::string& program) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
   };
-  if (program.find('/') != std::string::npos) return runs(program) ? std::filesystem::path(program) : std::filesystem::path{};
+  if (program.find('/') != std::string::npos)
+    return runs(program) ? std::filesystem::path(program) : std::filesystem::path{};
   const char* variable = std::getenv("PATH");
   std::string folders = variable ? variable : "/usr/local/bin:/usr/bin:/bin";
   for (std::size_t begin = 0; begin <= folders.size();) {

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# A window on a virtual display, driven by real X events: a stroke, undo, redo, save, quit.
+# Usage: xvfb-run -s "-screen 0 1440x900x24" bash xvfb_strokes.sh ARGIL OUT; prints what went wrong, status 1.
+set -u
+argil=$1 out=$2
+wait_for() { # as long as it takes, but not for ever
+  for _ in $(seq 600); do
+    eval "$1" && return 0
+    sleep 0.1
+  done
+  echo "waited in vain for: $1" >&2
+  kill -9 "$program"
+  exit 1
+}
+journal=$out/journal.argil
+"$argil" studio --out "$out" &
+program=$!
+wait_for 'window=$(xdotool search --onlyvisible --name "^Argil$" | head -1) && [ -n "$window" ]'
+wait_for 'grep -q "^tool pull" "$journal" 2>/dev/null'
+xdotool windowfocus --sync "$window"
+sleep 1 # frames until the solid is there
+xdotool mousemove 600 330
+sleep 0.3
+xdotool mousedown 1
+for i in $(seq 15); do
+  xdotool mousemove 600 $((330 - 5 * i))
+  sleep 0.05
+done
+xdotool mouseup 1
+wait_for 'grep -q "^stroke path" "$journal"'
+wait_for 'grep -q "^commit" "$journal"'
+xdotool key ctrl+z
+wait_for 'grep -q "^undo" "$journal"'
+xdotool key ctrl+shift+z
+wait_for 'grep -q "^redo" "$journal"'
+xdotool key ctrl+s
+sleep 0.5
+xdotool key ctrl+a
+xdotool type --delay 40 "$out/saved.argil"
+xdotool key Return
+wait_for '[ -s "$out/saved.argil" ]'
+xdotool key ctrl+q
+wait "$program"
