@@ -117,7 +117,8 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const bool has_legend = scene.legend && has_room;
     // A frame says itself what must be seen, so that pictures of one frame have one scale.
     Margins free = options.frame ? Margins{} : margins(scene, options, pixel, has_legend);
-    if (has_room && !options.frame) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
+    if (has_room && !options.frame)
+      free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
     const Camera camera = framing_camera(positions, options, free);
 
     context_.make_current();
