@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/cell_picture.h"
 #include "sculpt/document_loads.h"
 #include "sculpt/export.h"
 #include "sculpt/field_transfer.h"

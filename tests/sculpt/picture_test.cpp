@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "sculpt/cell_picture.h"
 #include "tests/sculpt/sessions.h"
 
 namespace argil::sculpt {

@@ -25,71 +25,29 @@ struct Theme {
   Colour wire_on_clay, wire_on_field, wire_alone;
   Colour arrow, arrow_outline, pin, pin_outline;
   Colour overlay, axis_u, axis_v, axis_w, side, rest_side;
-  Colour edge_spring, face_spring, inner_spring, material_line, curve, handle, felt;
+  Colour edge_spring, face_spring, inner_spring, material_line, curve, felt;
   float shadow;  // opacity
   Colour obstacle;
 };
 
-inline constexpr Theme k_dark_theme{colour(0x2B2F36),
-                                    colour(0x171A1E),
-                                    colour(0xE6E8EB),
-                                    colour(0xA9AEB6),
-                                    colour(0x14171A, 0.85F),
-                                    colour(0x8FB6E0, 0.62F),
-                                    colour(0x93BDEB),
-                                    colour(0x1A1D21),
-                                    colour(0x2A0F04, 0.50F),
-                                    colour(0x0B1014, 0.38F),
-                                    colour(0xE0B79A, 0.55F),
-                                    colour(0xF0A93C),
-                                    colour(0x2A1604, 0.85F),
-                                    colour(0x5BD0CB),
-                                    colour(0x0E2A2A, 0.9F),
-                                    colour(0xF2EDE4, 0.70F),
-                                    colour(0xF0655A),
-                                    colour(0x7CCB5B),
-                                    colour(0x5AA2F5),
-                                    colour(0xF0A93C),
-                                    colour(0x5BD0CB),
-                                    colour(0xF2EDE4),
-                                    colour(0x4FB6E8),
-                                    colour(0xF0A93C),
-                                    colour(0xFF7AB8),
-                                    colour(0xA6ECFF),
-                                    colour(0xFFE9A8),
-                                    colour(0x2350D8),
-                                    0.85F,
-                                    colour(0x9AA3AD, 0.46F)};
-inline constexpr Theme k_light_theme{colour(0xF7F8FA),
-                                     colour(0xDCE0E5),
-                                     colour(0x1E2126),
-                                     colour(0x5A616B),
-                                     colour(0xFFFFFF, 0.85F),
-                                     colour(0x3F6FA6, 0.65F),
-                                     colour(0x3F78B8),
-                                     colour(0xFFFFFF),
-                                     colour(0x2A0F04, 0.50F),
-                                     colour(0x0B1014, 0.38F),
-                                     colour(0x7A4326, 0.60F),
-                                     colour(0xE8961E),
-                                     colour(0x3A1D02, 0.85F),
-                                     colour(0x139A94),
-                                     colour(0xFFFFFF, 0.9F),
-                                     colour(0x1E2126, 0.70F),
-                                     colour(0xC7352B),
-                                     colour(0x3C8A1F),
-                                     colour(0x2166C4),
-                                     colour(0xC9760A),
-                                     colour(0x0B807B),
-                                     colour(0x2B2F36),
-                                     colour(0x1F7FB8),
-                                     colour(0xC9760A),
-                                     colour(0xB8246F),
-                                     colour(0x0B5FA8),
-                                     colour(0xFFE08A),
-                                     colour(0x3D7BFF),
-                                     0.40F,
-                                     colour(0x7D8791, 0.46F)};
+inline constexpr Theme k_dark_theme{
+    colour(0x2B2F36),        colour(0x171A1E),        colour(0xE6E8EB),        colour(0xA9AEB6),
+    colour(0x14171A, 0.85F), colour(0x8FB6E0, 0.62F), colour(0x93BDEB),        colour(0x1A1D21),
+    colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F), colour(0xE0B79A, 0.55F), colour(0xF0A93C),
+    colour(0x2A1604, 0.85F), colour(0x5BD0CB),        colour(0x0E2A2A, 0.9F),  colour(0xF2EDE4, 0.70F),
+    colour(0xF0655A),        colour(0x7CCB5B),        colour(0x5AA2F5),        colour(0xF0A93C),
+    colour(0x5BD0CB),        colour(0xF2EDE4),        colour(0x4FB6E8),        colour(0xF0A93C),
+    colour(0xFF7AB8),        colour(0xA6ECFF),        colour(0x2350D8),        0.85F,
+    colour(0x9AA3AD, 0.46F)};
+inline constexpr Theme k_light_theme{
+    colour(0xF7F8FA),        colour(0xDCE0E5),        colour(0x1E2126),        colour(0x5A616B),
+    colour(0xFFFFFF, 0.85F), colour(0x3F6FA6, 0.65F), colour(0x3F78B8),        colour(0xFFFFFF),
+    colour(0x2A0F04, 0.50F), colour(0x0B1014, 0.38F), colour(0x7A4326, 0.60F), colour(0xE8961E),
+    colour(0x3A1D02, 0.85F), colour(0x139A94),        colour(0xFFFFFF, 0.9F),  colour(0x1E2126, 0.70F),
+    colour(0xC7352B),        colour(0x3C8A1F),        colour(0x2166C4),        colour(0xC9760A),
+    colour(0x0B807B),        colour(0x2B2F36),        colour(0x1F7FB8),        colour(0xC9760A),
+    colour(0xB8246F),        colour(0x0B5FA8),        colour(0x3D7BFF),        0.40F,
+    colour(0x7D8791, 0.46F)};
 
 constexpr Colour line_colour(sculpt::LineLook look, const Theme& theme) {
   switch (look) {

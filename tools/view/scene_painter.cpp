@@ -380,13 +380,13 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   hide_behind_surface(false);
   draw_lines(cage_lines_, camera, sampling, 0.55F, hidden_cage, k_cage_length);
   draw_line_sets(camera, sampling, k_hidden);
-  draw_marks(handles_, camera, sampling, 0, 6, theme.handle, theme.arrow_outline, k_hidden_pin);
+  draw_marks(handles_, camera, sampling, 0, 6, theme.curve, theme.arrow_outline, k_hidden_pin);
   if (draws_hidden_pins_) draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, k_hidden_pin);
   hide_behind_surface(true);
   draw_lines(cage_lines_, camera, sampling, 0.55F, theme.cage, k_cage_length);
   draw_line_sets(camera, sampling, 1);
   draw_marks(cage_points_, camera, sampling, 0, 3.3F, theme.cage_point, theme.cage_ring, 1);
-  draw_marks(handles_, camera, sampling, 0, 6, theme.handle, theme.arrow_outline, 1);
+  draw_marks(handles_, camera, sampling, 0, 6, theme.curve, theme.arrow_outline, 1);
   draw_arrows(camera, sampling);
   draw_marks(pins_, camera, sampling, 1, 7, theme.pin, theme.pin_outline, 1);
   hide_behind_surface(draws_surface_);
