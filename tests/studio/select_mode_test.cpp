@@ -163,6 +163,41 @@ TEST_P(OnModels, ADraggedFaceShowsAGhostAndIsExtrudedOnEnter) {
   EXPECT_EQ(hash(again), after);
 }
 
+TEST_P(OnModels, TheShelfsExtrudeDrawsThePointedFaceOutInOneDrag) {
+  Offscreen window(small_window("shelf_extrude_" + name()), file());
+  window.click("Extrude");
+  window.wait(2);
+  const auto place = visible_place(window, ElementType::faces, 3);
+  ASSERT_TRUE(place);
+  const std::uint32_t face = pointed_at(window, ElementType::faces, *place);
+  const std::uint64_t before = hash(window);
+  const std::size_t cells = document(window).solid().cell_count();
+  click_at(window, *place);  // without a way it does nothing
+  EXPECT_EQ(hash(window), before);
+  EXPECT_EQ(desk(window).pending.tool, nullptr);
+  const Eigen::Vector2d at = pixel(window, *place);
+  window.move(at.x(), at.y());
+  EXPECT_EQ(desk(window).pointed, face);
+  window.button(0, true);
+  const Eigen::Vector3d normal = desk(window).pending.aim.normal;
+  const double length = 0.08 * (window.now().high - window.now().low).norm();
+  const Eigen::Vector2d way = pixel(window, *place + length * normal) - at;
+  for (int i = 1; i <= 6; ++i) window.move(at.x() + way.x() * i / 6, at.y() + way.y() * i / 6);
+  window.wait(2);
+  ASSERT_TRUE(window.now().ghost);
+  EXPECT_EQ(window.now().ghost->cells_made, 1U);
+  window.button(0, false);
+  window.wait(2);
+  EXPECT_EQ(document(window).solid().cell_count(), cells + 1);
+  const auto& history = *window.now().history;
+  EXPECT_EQ(history[history.size() - 2].line, fmt::format("select faces ids {}", face));
+  EXPECT_EQ(hash_of_journal(window, "shelf_extrude_replayed_" + name()), hash(window));
+  EXPECT_EQ(window.workshop().lines_run_in_frames(), 0);
+  window.press("Ctrl-Z");  // both lines at once
+  window.wait(2);
+  EXPECT_EQ(hash(window), before);
+}
+
 TEST(SelectMode, AToolOfTheShelfEndsIt) {
   Offscreen window(small_window("shelf"));
   window.press("Tab");

@@ -65,6 +65,11 @@ const std::vector<std::string>& cycled_fields() {
   return fields;
 }
 
+std::optional<sculpt::ElementType> Desk::pointing() const {
+  if (settings.choosing || tool().kind != ToolKind::extrude) return settings.choosing;
+  return sculpt::ElementType::faces;
+}
+
 void Desk::take_tool(std::size_t index) {
   if (index >= shelf_tools().size()) return;
   settings.tool = index;
@@ -74,10 +79,8 @@ void Desk::take_tool(std::size_t index) {
     pending = {};
     workshop->preview({});
   }
-  if (settings.choosing) {
-    settings.choosing.reset();
-    show();
-  }
+  settings.choosing.reset();
+  show();
   if (*tool().name != '\0') brush.name = tool().name;
   // What is painted should be seen; clay comes back with the next tool.
   const bool paints = *tool().field != '\0';
@@ -137,7 +140,7 @@ void Desk::show() const {
   shown.cage = settings.cage;
   shown.finest_wires = settings.finest_wires;
   shown.peel = settings.peel;
-  shown.selectable = settings.choosing.has_value();
+  shown.selectable = pointing().has_value();
   shown.curve = curve.points;
   workshop->post([shown](Bench& bench) { bench.show(shown); });
 }

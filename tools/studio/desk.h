@@ -107,6 +107,8 @@ struct Desk {
   bool virtual_clock = false;  // no speed is shown, so that pictures are the same
 
   [[nodiscard]] const ShelfTool& tool() const { return shelf_tools()[settings.tool]; }
+  /// What the pointer lights up: what is chosen in select mode, or faces for the tool that draws them out.
+  [[nodiscard]] std::optional<sculpt::ElementType> pointing() const;
   void run(const std::string& line) const { workshop->run(line); }
   void take_tool(std::size_t index);
   /// Takes the brush of a solid that was begun or opened.

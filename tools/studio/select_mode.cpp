@@ -77,8 +77,9 @@ std::string select_line(ElementType type, const std::vector<std::uint32_t>& ids,
 
 void SelectMode::hover(Desk& desk, const std::optional<Hit>& hit) const {
   desk.pointed.reset();
-  if (!desk.settings.choosing || !hit || !desk.now->selectable || !desk.now->scene) return;
-  desk.pointed = element_at(*desk.now->selectable, desk.now->scene->surface, *desk.settings.choosing, *hit);
+  const auto type = desk.pointing();
+  if (!type || !hit || !desk.now->selectable || !desk.now->scene) return;
+  desk.pointed = element_at(*desk.now->selectable, desk.now->scene->surface, *type, *hit);
 }
 
 void SelectMode::press(const Desk& desk, double x, double y) {
@@ -176,6 +177,32 @@ void SelectMode::advance(Desk& desk, const OrbitCamera& camera, double x, double
   show_pending(desk);
 }
 
+void SelectMode::aim(const Desk& desk, const OrbitCamera& camera, const sculpt::Selection& acted,
+                     PendingEdit& pending) {
+  pending.journal_lines = desk.now->journal_lines;
+  pending.aim.type = acted.type;
+  const Patch patch = patch_of(*desk.now->selectable, desk.now->scene->surface, acted);
+  pending.aim.middle = patch.empty ? Box{desk.now->low, desk.now->high}.middle() : patch.middle;
+  pending.aim.normal = pending.tool->amount == Amount::share ? axis_along(patch.normal) : patch.normal;
+  const Eigen::Vector3d eye = camera.towards_eye();
+  pending.aim.across = axis_along(Eigen::Vector3d(-eye.y(), eye.x(), 0));
+  for (double& value : pending.aim.middle) value = rounded(value, size_of(desk));
+}
+
+bool SelectMode::take_face(Desk& desk, const OrbitCamera& camera, double x, double y) {
+  if (!desk.pointed || !desk.now->selectable || desk.pointing() != ElementType::faces) return false;
+  const sculpt::Selection face{ElementType::faces, {*desk.pointed}};
+  PendingEdit pending;
+  pending.tool = edit_tool(Action::edit_extrude);
+  pending.choice = select_line(face.type, face.ids);
+  pending.follows = true;
+  pending.from_x = x;
+  pending.from_y = y;
+  aim(desk, camera, face, pending);
+  desk.pending = pending;
+  return true;
+}
+
 void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y) {
   if (!desk.now->scene) return;
   const sculpt::Selection& selection = selection_of(desk);
@@ -196,17 +223,7 @@ void SelectMode::begin(Desk& desk, const OrbitCamera& camera, const EditTool& to
     waiting_ = &tool;
     return;
   }
-  pending.journal_lines = desk.now->journal_lines;
-  pending.aim.type = acted.type;
-  if (desk.now->selectable) {
-    const Patch patch = patch_of(*desk.now->selectable, desk.now->scene->surface, acted);
-    pending.aim.middle = patch.empty ? Box{desk.now->low, desk.now->high}.middle() : patch.middle;
-    pending.aim.normal = patch.normal;
-    if (tool.amount == Amount::share) pending.aim.normal = axis_along(patch.normal);
-  }
-  const Eigen::Vector3d eye = camera.towards_eye();
-  pending.aim.across = axis_along(Eigen::Vector3d(-eye.y(), eye.x(), 0));
-  for (double& value : pending.aim.middle) value = rounded(value, size_of(desk));
+  aim(desk, camera, acted, pending);
   pending.amount = tool.initial;
   if (tool.action == Action::edit_extrude || tool.action == Action::edit_peak)
     pending.amount = rounded(0.2 * size_of(desk), size_of(desk));
@@ -277,6 +294,12 @@ void SelectMode::commit(Desk& desk) const {
   if (desk.pending.tool == nullptr) return;
   // What cannot be done stays as it is, and goes on to say why.
   const auto lines = desk.pending.lines();
+  const bool is_nothing = desk.pending.tool->action == Action::edit_extrude && desk.pending.amount == 0;
+  if (is_nothing && !desk.settings.choosing) {  // pressed and let go
+    desk.pending = {};
+    desk.workshop->preview({});
+    return;
+  }
   if (desk.now->ghost && desk.now->ghost->lines == lines && !desk.now->ghost->fault.empty()) return;
   desk.workshop->run_together(lines);
   desk.pending = {};

@@ -21,6 +21,8 @@ class SelectMode {
   bool cancel(Desk& desk);
 
   void press(const Desk& desk, double x, double y);
+  /// Takes the face under the pointer to be drawn out by it. False where there is none.
+  bool take_face(Desk& desk, const OrbitCamera& camera, double x, double y);
   /// A click, or a box if the pointer went far enough.
   void release(Desk& desk, const OrbitCamera& camera, double x, double y, bool control, bool shift);
   /// The pointer gives the amount of what is pending.
@@ -37,6 +39,8 @@ class SelectMode {
  private:
   void click(Desk& desk, bool control, bool shift);
   void begin(Desk& desk, const OrbitCamera& camera, const EditTool& tool, double x, double y);
+  static void aim(const Desk& desk, const OrbitCamera& camera, const sculpt::Selection& acted,
+                  PendingEdit& pending);
 
   const EditTool* waiting_ = nullptr;  // a tool for which the snapshot does not yet say what lies where
   std::optional<Eigen::Vector2d> pressed_;

@@ -10,14 +10,6 @@
 
 namespace argil::studio {
 
-namespace {
-
-std::string place_words(const Eigen::Vector3d& p) {
-  return fmt::format("{} {} {}", p.x(), p.y(), p.z());
-}
-
-}  // namespace
-
 Viewport::Viewport(const view::Gl& gl) : gl_(&gl), painter_(gl), overlay_(gl) {}
 
 Box Viewport::box_of(const Snapshot& now) const {
@@ -168,11 +160,10 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
     return;
   }
   grip_ = device_ = hover_->at;
-  grip_normal_ = hover_->normal;
   depth_ = 0;
   switch (desk.tool().kind) {
     case ToolKind::extrude:
-      drag_ = Drag::extrude;
+      drag_ = select_.take_face(desk, camera_, x_, y_) ? Drag::amount : Drag::orbit;
       break;
     default: {
       drag_ = Drag::stroke;
@@ -230,9 +221,6 @@ void Viewport::drag(Desk& desk, const Input& input, bool shift) {
     case Drag::amount:
       select_.follow(desk, camera_, x_, y_, shift);
       break;
-    case Drag::extrude:
-      device_ = on_stroke_plane(x_, y_);
-      break;
     case Drag::plane: {
       const Eigen::Vector3d& normal = desk.settings.cut_normal;
       const Eigen::Vector2d from = camera_.pixel(desk.settings.cut_point),
@@ -274,14 +262,6 @@ void Viewport::release(Desk& desk) {
     case Drag::amount:
       select_.commit(desk);
       break;
-    case Drag::extrude: {
-      const double distance = (device_ - grip_).dot(grip_normal_);
-      const Eigen::Vector3d eye = camera_.eye(), direction = (grip_ - eye).normalized();
-      if (std::abs(distance) < 1e-3 * box_of(*desk.now).radius()) break;
-      desk.workshop->run_together({fmt::format("select faces ray {} {}", place_words(eye), place_words(direction)),
-                                   fmt::format("extrude {}", distance)});
-      break;
-    }
     case Drag::radius:
     case Drag::strength: {
       const double digits = std::pow(10.0, std::floor(std::log10(brush_now_)) - 2);
@@ -295,6 +275,7 @@ void Viewport::release(Desk& desk) {
 }
 
 void Viewport::cancel(Desk& desk) {
+  if (drag_ == Drag::amount) (void)select_.cancel(desk);
   if (drag_ == Drag::stroke || drag_ == Drag::handle) desk.workshop->cancel_stroke();
   select_.drop_box();
   drag_ = Drag::none;

@@ -35,7 +35,7 @@ class Viewport {
   bool is_busy() const { return drag_ != Drag::none; }
 
  private:
-  enum class Drag { none, stroke, handle, extrude, choose, amount, orbit, pan, plane, radius, strength };
+  enum class Drag { none, stroke, handle, choose, amount, orbit, pan, plane, radius, strength };
   bool press_on_plane(Desk& desk);
   bool press_in_select_mode(Desk& desk, const Input& input);
   bool press_on_curve(Desk& desk, const Input& input);
@@ -75,7 +75,7 @@ class Viewport {
   bool left_ = false, middle_ = false, right_ = false;
   bool inverts_ = false;
   // A stroke.
-  Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_, grip_normal_ = grip_;
+  Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_;
   double depth_ = 0;  // towards the eye, by the wheel
   // The brush while it is sized.
   double brush_start_ = 0, brush_now_ = 0;

@@ -194,10 +194,6 @@ void Viewport::draw_marks(Desk& desk) {
                     {at.x - ui.px(9), at.y - ui.px(9), ui.px(18), ui.px(18)});
   }
 
-  const auto shift = [&](const Eigen::Vector3d& at, double right, double down) {
-    return Eigen::Vector2d(camera_.pixel(at) +
-                           Eigen::Vector2d(ui.px(static_cast<float>(right)), ui.px(static_cast<float>(down))));
-  };
   if (now.stroke && now.stroke->force.norm() > 0) {
     const Quantity force = shown(now.stroke->force.norm(), "N");
     label(Eigen::Vector2d(x_ + ui.px(18), y_ - ui.px(14)), force.number + ' ' + force.unit,
@@ -213,13 +209,6 @@ void Viewport::draw_marks(Desk& desk) {
   if (drag_ == Drag::radius || drag_ == Drag::strength) {
     const Quantity size = shown(brush_now_, drag_ == Drag::radius ? "m" : "N/m");
     label(Eigen::Vector2d(x_ + ui.px(18), y_), size.number + ' ' + size.unit, t.accent);
-  }
-  if (drag_ == Drag::extrude) {
-    const double distance = (device_ - grip_).dot(grip_normal_);
-    const Eigen::Vector3d tip = grip_ + distance * grip_normal_;
-    line(grip_, tip, t.accent, 2);
-    const Quantity length = shown(distance, "m");
-    label(shift(tip, 10, 0), length.number + ' ' + length.unit, t.accent);
   }
   if (desk.tool().kind == ToolKind::probe && hover_ && drag_ == Drag::none) {
     const Quantity young = shown(desk.reading.young_modulus, "Pa");

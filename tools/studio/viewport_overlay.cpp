@@ -135,7 +135,7 @@ std::uint64_t number_of(const void* pointer) {
 
 void Viewport::update_overlay(const Desk& desk) {
   const Snapshot& now = *desk.now;
-  const bool chooses = desk.settings.choosing.has_value();
+  const auto pointing = desk.pointing();
   const bool drawn_by_handle = drag_ == Drag::handle;
   const Eigen::Vector3d way = drawn_by_handle ? Eigen::Vector3d(device_ - grip_) : Eigen::Vector3d::Zero();
   std::vector<std::uint64_t> all{number_of(now.scene.get()),
@@ -144,7 +144,8 @@ void Viewport::update_overlay(const Desk& desk) {
                                  number_of(now.ghost.get()),
                                  number_of(now.curve.get()),
                                  now.layout,
-                                 chooses ? 1U + static_cast<std::uint64_t>(*desk.settings.choosing) : 0U,
+                                 pointing ? 1U + static_cast<std::uint64_t>(*pointing) : 0U,
+                                 desk.settings.choosing ? 1U : 0U,
                                  desk.pointed ? 1U + std::uint64_t{*desk.pointed} : 0U,
                                  desk.pending.tool != nullptr ? 1U : 0U,
                                  desk.curve.finished ? 1U : 0U,
@@ -163,19 +164,19 @@ void Viewport::update_overlay(const Desk& desk) {
                ring = with_alpha(colour_of(t.panel), 0.9F);
   if (now.scene) {
     add_mask(overlay, now);
-    if (now.selectable && chooses) {
-      if (*desk.settings.choosing == ElementType::vertices) {
+    if (now.selectable && pointing) {
+      if (*pointing == ElementType::vertices) {
         Overlay::Dots dots{.tint = colour_of(t.quiet), .ring = ring, .radius = 2.6F, .through = false};
         for (const Selectable::Point& point : now.selectable->points)
           dots.at.push_back(now.scene->surface.positions[point.at]);
         overlay.dots.push_back(std::move(dots));
       }
       const bool pends = desk.pending.tool != nullptr;
-      add_elements(overlay, now, now.state.selection->type, now.state.selection->ids, accent, pends ? 0.41F : 0.55F,
-                   ring);
+      if (desk.settings.choosing)
+        add_elements(overlay, now, now.state.selection->type, now.state.selection->ids, accent,
+                     pends ? 0.41F : 0.55F, ring);
       if (desk.pointed && !pends)
-        add_elements(overlay, now, *desk.settings.choosing, {*desk.pointed}, with_alpha(colour_of(t.text), 1), 0.3F,
-                     ring);
+        add_elements(overlay, now, *pointing, {*desk.pointed}, with_alpha(colour_of(t.text), 1), 0.3F, ring);
     }
     if (now.ghost && desk.pending.tool != nullptr) add_ghost(overlay, now, mark, warning);
     if (now.curve)
