@@ -20,7 +20,7 @@ using Stepped = std::function<void(const sculpt::Document&)>;
 
 sculpt::SessionOptions session_options(const MovieArguments& arguments, const std::filesystem::path& out) {
   sculpt::SessionOptions options;
-  options.read_root = arguments.session.parent_path();
+  options.read_root = arguments.read_root.empty() ? arguments.session.parent_path() : arguments.read_root;
   options.out = out;
   options.limits = arguments.limits;
   options.write_journal = false;

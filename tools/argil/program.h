@@ -4,6 +4,7 @@
 // our own bug.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -114,7 +115,8 @@ struct MovieArguments {
   std::string options;  // of the session command `render`
   double rate = 30;     // pictures a second of simulated time
   bool turntable = false;
-  double seconds = 6;  // of a turn
+  double seconds = 6;               // of a turn
+  std::filesystem::path read_root;  // of what the session reads; empty: its folder
   sculpt::Limits limits;
   bool quiet = false;
 };

@@ -9,6 +9,7 @@
 #include "tools/devices/device_table.h"
 #include "tools/studio/script.h"
 #include "tools/studio/window.h"
+#include "tools/view/film.h"
 #include "tools/view/offscreen_renderer.h"
 
 namespace argil::tools {
@@ -42,6 +43,22 @@ argil::studio::DeviceShop device_shop() {
   return shop;
 }
 
+std::string make_film(const std::filesystem::path& session, const std::filesystem::path& read_root,
+                      bool turntable) {
+  MovieArguments arguments;
+  arguments.session = session;
+  arguments.read_root = read_root;
+  arguments.out = session.parent_path();
+  const char* const ending = view::can_write_films() ? ".mp4" : ".png";
+  arguments.file = (turntable ? std::string("turntable") : std::string("film")) + ending;
+  arguments.turntable = turntable;
+  arguments.quiet = true;
+  movie(arguments);
+  const std::string file = (arguments.out / arguments.file).string();
+  return view::can_write_films() ? "the film is " + file
+                                 : "there is no ffmpeg; its pictures are numbered beside " + file;
+}
+
 // Beside an installed program, else where it was built from.
 std::filesystem::path samples_folder() {
   std::error_code failure;
@@ -61,6 +78,7 @@ int studio(const StudioArguments& arguments) {
   bench.limits = arguments.limits;
   bench.clock = seconds;
   bench.samples = samples_folder();
+  bench.film = make_film;
   if (arguments.script.empty()) {
     bench.settings = settings_folder();
     argil::studio::run_window({bench, device_shop(), arguments.device, arguments.file});

@@ -19,6 +19,11 @@ struct BenchOptions {
   sculpt::Renderer* renderer = nullptr;      // for the command `render`; may be null
   std::filesystem::path samples{};           // folder of the samples; empty: there are none
   std::filesystem::path settings{};          // folder of the sculptor's settings; empty: none are kept
+  /// Makes a film of a session whose files are read beneath `read_root`: of its simulation, or of its last shape
+  /// turning. Says where it is. Null: there are no films.
+  std::function<std::string(const std::filesystem::path& session, const std::filesystem::path& read_root,
+                            bool turntable)>
+      film{};
   /// Not empty, for a script that nobody watches: sessions are saved beneath it alone, and relative names mean
   /// there.
   std::filesystem::path save_root{};
@@ -59,6 +64,7 @@ class Bench {
   /// Work that was not saved becomes the session: every whole line that can run. It stays unsaved.
   void bring_back(const UnsavedWork& work);
   void throw_away(const UnsavedWork& work);
+  void film(bool turntable);
   // What dialogues show.
   void list(const std::string& typed);
   void look_for_samples();

@@ -226,6 +226,15 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
     move_scene(*next);
   }
   if (preview_changed_ || next->layout != (last_ ? last_->layout : 0)) draw_ghost(*next);
+  if (empty || !shown_.energy) {
+    next->energy = -1;
+  } else if (!last_ || last_->energy < 0 || last_->state.motion != document.state().motion) {
+    try {
+      next->energy = sculpt::measure(document, {.name = "energy"});
+    } catch (const Error&) {
+      next->energy = -1;  // a solid that cannot be simulated, a model without an energy
+    }
+  }
   next->state = document.state();
   next->tool = document.state().tool;
   next->tool_number = tool_lines_;

@@ -140,6 +140,7 @@ void Desk::show() const {
   shown.cage = settings.cage;
   shown.finest_wires = settings.finest_wires;
   shown.peel = settings.peel;
+  shown.energy = wants_energy;
   shown.selectable = pointing().has_value();
   shown.curve = curve.points;
   workshop->post([shown](Bench& bench) { bench.show(shown); });
@@ -186,6 +187,10 @@ bool Desk::perform(Action action) {
       return true;
     case screenshot:
       takes_picture = true;
+      return true;
+    case film:
+    case turntable:
+      post([turns = action == turntable](Bench& bench) { bench.film(turns); });
       return true;
     case quit:
       quits = true;

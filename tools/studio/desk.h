@@ -100,8 +100,10 @@ struct Desk {
   bool quits = false, takes_picture = false;
   std::filesystem::path folder = ".";  // where files are opened and saved
   double frame_ms = 0, frames_a_second = 0;
-  std::vector<float> force_plot;  // [N], the latest last
-  double time = 0;                // [s], since the window opened
+  std::vector<float> force_plot, energy_plot;  // [N], [J]; the latest last
+  bool wants_energy = false;
+  std::uint64_t plotted_solid = 0, plotted_version = 0;
+  double time = 0;  // [s], since the window opened
   std::uint64_t seen_message = 0;
   double message_since = 0;
   bool virtual_clock = false;  // no speed is shown, so that pictures are the same

@@ -34,6 +34,8 @@ enum class Action {
   save,
   save_as,
   screenshot,
+  film,
+  turntable,
   quit,
   samples,
   unsaved_work,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sculpt/document_loads.h"
+#include "tools/studio/plots.h"
 #include "tools/studio/quantity.h"
 #include "tools/studio/select_mode.h"
 
@@ -35,33 +36,6 @@ double rounded(double value) {
 
 std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
-void force_plot(Desk& desk, float x, float width) {
-  Ui& ui = *desk.ui;
-  const Tokens& t = ui.tokens();
-  ImDrawList& draw = ui.list();
-  const Rect place{x, ui.cursor_y() + ui.px(14), width, ui.px(64)};
-  draw.AddLine({place.x, place.bottom()}, {place.right(), place.bottom()}, t.outline, ui.px(1));
-  const auto& values = desk.force_plot;
-  float most = 0;
-  for (const float value : values) most = std::max(most, value);
-  if (values.size() > 1 && most > 0) {
-    std::vector<ImVec2> points;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      points.emplace_back(place.x + place.width * static_cast<float>(i) / static_cast<float>(values.size() - 1),
-                          place.bottom() - ui.px(2) - (place.height - ui.px(8)) * values[i] / most);
-    draw.AddPolyline(points.data(), static_cast<int>(points.size()), t.accent, 0, ui.px(1.6F));
-    const Quantity words = shown(most, "N");
-    ui.text(draw, ui.fonts().small, {place.x, place.y - ui.px(18), place.width, ui.px(16)}, t.faint,
-            words.number + ' ' + words.unit, Side::right);
-  } else {
-    ui.text(draw, ui.fonts().small, {place.x, place.y, place.width, place.height}, t.faint,
-            "The force of a stroke shows here", Side::centre);
-  }
-  ui.note_control(ControlKind::reading, "Force over time", "The force of the tool during the last stroke", "N",
-                  place);
-  ui.skip(88);
 }
 
 void tool_panel(Desk& desk, float x, float width) {
@@ -135,7 +109,10 @@ void tool_panel(Desk& desk, float x, float width) {
   ui.reading_row("Felt stiffness", felt.number, felt.unit,
                  "Force of the last stroke over how far the clay went, or what the probe read");
   ui.section("Force");
-  force_plot(desk, x, width);
+  draw_plot(
+      desk,
+      {"Force over time", "The force of the tool during the last stroke", "N", "The force of a stroke shows here"},
+      desk.force_plot, x, width);
 }
 
 void material_panel(Desk& desk) {
@@ -184,7 +161,7 @@ void material_panel(Desk& desk) {
   ui.note("Paint stiffness or mass with the tools of the shelf to vary them.");
 }
 
-void physics_panel(Desk& desk) {
+void physics_panel(Desk& desk, float x, float width) {
   Ui& ui = *desk.ui;
   const Snapshot& now = *desk.now;
   if (!now.scene) {
@@ -229,6 +206,11 @@ void physics_panel(Desk& desk) {
   ui.reading_row("A step takes", desk.virtual_clock || now.steps == 0 ? "—" : fmt::format("{:.1f}", now.step_ms),
                  "ms", "Mean of the last thirty steps");
   ui.reading_row("Steps", fmt::format("{}", now.steps), "", "Taken since the session began");
+  ui.section("Energy");
+  draw_plot(desk,
+            {"Energy over time", "Elastic and kinetic energy of the body, step by step", "J",
+             "Let time run, or draw at the clay"},
+            desk.energy_plot, x, width);
 }
 
 }  // namespace
@@ -279,7 +261,7 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
       material_panel(desk);
       break;
     case Panel::physics:
-      physics_panel(desk);
+      physics_panel(desk, x, width);
       break;
     case Panel::fields:
       draw_fields_panel(desk, perform);

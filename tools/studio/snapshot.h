@@ -21,6 +21,7 @@ struct Shown {
   std::optional<std::array<double, 2>> range;  // else of the field's values
   std::optional<sculpt::ClipPlane> clip;
   bool cage = false;
+  bool energy = false;                 // told in snapshots; it costs about as much as a tenth of a step
   bool finest_wires = false;           // else only those between control cells
   int peel = 0;                        // layers taken away from the boundary
   bool selectable = false;             // what of the control solid shows where
@@ -110,6 +111,7 @@ struct Snapshot {
   bool playing = false;
   std::optional<StrokeNow> stroke;
   double step_ms = 0;
+  double energy = -1;  // elastic and kinetic [J]; −1: not asked for, or none
   long steps = 0, missed_ticks = 0;
   std::vector<Message> messages;  // the latest, oldest first
 };

@@ -11,14 +11,13 @@
 #include "tools/studio/dialogues.h"
 #include "tools/studio/key_editor.h"
 #include "tools/studio/panels.h"
+#include "tools/studio/plots.h"
 #include "tools/studio/ui_renderer.h"
 #include "tools/studio/work_notes.h"
 
 namespace argil::studio {
 
 namespace {
-
-constexpr std::size_t k_plot_points = 400;
 
 // Text fields know keys by Dear ImGui's own numbers.
 constexpr std::array<std::array<int, 2>, 22> k_text_keys{{{ImGuiKey_Tab, key::tab},
@@ -149,11 +148,7 @@ void Studio::frame(const Input& input) {
   if (desk_.now->samples && desk_.sample_pictures.empty())
     for (const Sample& sample : *desk_.now->samples)
       desk_.sample_pictures.push_back(renderer_->add_picture(sample.picture));
-  if (desk_.now->stroke) {
-    desk_.force_plot.push_back(static_cast<float>(desk_.now->stroke->force.norm()));
-    if (desk_.force_plot.size() > k_plot_points) desk_.force_plot.erase(desk_.force_plot.begin());
-    if (desk_.now->stroke->felt > 0) desk_.reading.felt = desk_.now->stroke->felt;
-  }
+  follow_plots(desk_);
   const Tokens& tokens = desk_.settings.light ? light_tokens() : dark_tokens();
   if (&tokens != &ui_->tokens()) {
     ui_->set_tokens(tokens);
