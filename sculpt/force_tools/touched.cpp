@@ -76,7 +76,8 @@ class Unmasked {
     samples_.assign(rows.row_count(), 0.0);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const auto row = rows.row(static_cast<std::uint32_t>(i));
-      for (std::size_t e = 0; e < row.columns.size(); ++e) samples_[i] += row.weights[e] * (1 - mask[row.columns[e]]);
+      for (std::size_t e = 0; e < row.columns.size(); ++e)
+        samples_[i] += row.weights[e] * (1 - mask[row.columns[e]]);
     }
   }
 
