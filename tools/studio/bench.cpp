@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
-#include "io/file_bytes.h"
-#include "io/volume_formats.h"
 #include "subdiv/error.h"
 
 namespace argil::studio {
