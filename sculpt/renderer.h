@@ -92,7 +92,8 @@ struct Scene {
   std::vector<SceneLabel> labels;     // drawn with a small dot and a halo
   std::optional<SceneLegend> legend;  // with values: its map between low and high
   bool draw_surface = true;
-  /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty: none.
+  /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty:
+  /// none.
   std::vector<Eigen::Vector3f> framed;
 };
 
