@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 
 #include "io/image.h"
 #include "subdiv/error.h"
@@ -99,8 +100,8 @@ TEST_P(WithFfmpeg, AreWhatTheirPicturesWere) {
     double sum = 0;
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 97; ++x)
-        sum += std::abs(double{found.rgba[static_cast<std::size_t>(4 * (y * found.width + x))]} -
-                        wanted.rgba[static_cast<std::size_t>(4 * (y * 97 + x))]);
+        sum += std::abs(int{found.rgba[static_cast<std::size_t>(4 * (y * found.width + x))]} -
+                        int{wanted.rgba[static_cast<std::size_t>(4 * (y * 97 + x))]});
     EXPECT_LT(sum / (64 * 97), 6) << i;  // of 255: compression; a picture off by one in order has 20
   }
 }
