@@ -8,6 +8,7 @@
 
 #include "sculpt/force_tools/curve.h"
 #include "sculpt/force_tools/touched.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/simulation.h"
 #include "subdiv/error.h"
 
@@ -142,6 +143,24 @@ void Stroke::read() {
   stiffest_ = std::max(stiffest_, reading_->stiffness);
 }
 
+void add_obstacle_walls(ContactModel& model, const Document& document, double reach) {
+  constexpr double k_stiffness = 1000;  // [N/m], of a wall that a device can show
+  const double time = document.state().motion->time;
+  std::vector<std::pair<double, ContactPlane>> walls;
+  for (const fem::Obstacle& obstacle : moving_obstacles(document.state(), time)) {
+    const fem::ObstaclePose pose = fem::pose_at(obstacle, time);
+    const fem::SignedDistance near = fem::signed_distance(obstacle, pose.own(model.point));
+    if (near.distance > reach) continue;
+    const Eigen::Vector3d normal = pose.rotation * near.normal;
+    walls.push_back({near.distance, {normal, normal.dot(model.point) - near.distance, k_stiffness}});
+  }
+  std::sort(walls.begin(), walls.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& wall : walls) {
+    if (model.plane_count == ContactModel::k_max_planes) return;
+    model.planes[model.plane_count++] = wall.second;
+  }
+}
+
 ContactModel Stroke::felt(Tick valid_until) const {
   ContactModel model;
   model.point = pose_.position;
@@ -154,6 +173,7 @@ ContactModel Stroke::felt(Tick valid_until) const {
     model.planes[0] = {reading_->normal, reading_->normal.dot(reading_->at), reading_->stiffness};
     model.plane_count = 1;
   }
+  add_obstacle_walls(model, session_.document(), tool_.radius);
   model.valid_until = valid_until;
   return model;
 }

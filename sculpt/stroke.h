@@ -26,6 +26,10 @@ struct StrokeOptions {
   std::size_t handle = 0;
 };
 
+/// Adds to `model` the walls of the document's obstacles that a device at its point is in, or nearer to than
+/// `reach` [m]: so that a hand meets them before it touches. At most as many as a model holds, the nearest first.
+void add_obstacle_walls(ContactModel& model, const Document& document, double reach);
+
 /// What a stroke does to the body now.
 struct StrokeForce {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();      // middle of what is touched [m]

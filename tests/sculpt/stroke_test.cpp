@@ -139,5 +139,27 @@ TEST(Stroke, LinesThatCannotRunAreNotAdopted) {
   EXPECT_EQ(session.folder().text_of("journal.argil"), before);
 }
 
+TEST(Stroke, AHandFeelsObstaclesBeforeItTouchesThem) {
+  TestSession session({"new box 2 2 2 size 0.2 0.2 0.2", "levels 1", "obstacle floor plane at 0 0 -0.1",
+                       "obstacle ball sphere at 0.5 0 0 radius 0.1"});
+  ContactModel model;
+  model.point = {0.42, 0, -0.05};
+  add_obstacle_walls(model, session->document(), 0.1);
+  ASSERT_EQ(model.plane_count, 2U);
+  // The ball is nearer: its surface is where the line to its middle leaves it.
+  const Eigen::Vector3d out = (model.point - Eigen::Vector3d(0.5, 0, 0)).normalized();
+  EXPECT_LT((model.planes[0].normal - out).norm(), 1e-12);
+  EXPECT_NEAR(model.planes[0].offset, out.dot(Eigen::Vector3d(0.5, 0, 0)) + 0.1, 1e-12);
+  EXPECT_NEAR(model.planes[1].offset, -0.1, 1e-12);
+  EXPECT_LT((model.planes[1].normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  // Above the floor nothing pushes, 1 mm inside 1 N does.
+  EXPECT_EQ(contact_force(model, {0.3, 0, -0.09}).norm(), 0);
+  EXPECT_NEAR(contact_force(model, {0.3, 0, -0.101}).z(), 1, 1e-9);
+  ContactModel far;
+  far.point = {0, 0, 5};
+  add_obstacle_walls(far, session->document(), 0.1);
+  EXPECT_EQ(far.plane_count, 0U);
+}
+
 }  // namespace
 }  // namespace argil::sculpt

@@ -225,6 +225,7 @@ sculpt::ContactModel Bench::felt(const Eigen::Vector3d& at, sculpt::Tick valid_u
   sculpt::ContactModel nothing;
   nothing.point = at;
   nothing.valid_until = valid_until;
+  sculpt::add_obstacle_walls(nothing, session_->document(), session_->document().state().tool.radius);
   return nothing;
 }
 

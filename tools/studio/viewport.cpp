@@ -98,13 +98,9 @@ void Viewport::update_hover(Desk& desk, bool over_ui) {
   reading.strain = now.strain.size() == vertices ? value_at(now.scene->surface, now.strain, *hover_) : -1;
 }
 
-Eigen::Vector3d Viewport::on_stroke_plane(double x, double y) const {
-  const Ray ray = camera_.ray(x, y);
-  const Eigen::Vector3d normal = camera_.towards_eye();
-  const Eigen::Vector3d origin = grip_ + depth_ * normal;
-  const double facing = normal.dot(ray.direction);
-  if (std::abs(facing) < 1e-6) return device_;
-  return ray.origin + normal.dot(origin - ray.origin) / facing * ray.direction;
+void Viewport::take_hold(const Eigen::Vector3d& at) {
+  grip_ = device_ = at;
+  mouse_.grab(at, -camera_.towards_eye());
 }
 
 bool Viewport::press_on_plane(Desk& desk) {
@@ -144,8 +140,7 @@ bool Viewport::press_on_curve(Desk& desk, const Input& input) {
   }
   drag_ = Drag::handle;
   handle_ = *handle;
-  grip_ = device_ = desk.now->curve->handles[handle_];
-  depth_ = 0;
+  take_hold(desk.now->curve->handles[handle_]);
   desk.force_plot.clear();
   desk.workshop->begin_stroke(handle_stroke(desk, handle_, input.pressure));
   return true;
@@ -159,8 +154,7 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
     drag_ = Drag::orbit;
     return;
   }
-  grip_ = device_ = hover_->at;
-  depth_ = 0;
+  take_hold(hover_->at);
   switch (desk.tool().kind) {
     case ToolKind::extrude:
       drag_ = select_.take_face(desk, camera_, x_, y_) ? Drag::amount : Drag::orbit;
@@ -184,9 +178,11 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
 // A force tool goes with the pointer through space, by the plane through where it took hold; a brush that lays
 // something on the clay goes over its surface.
 void Viewport::move_device(Desk& desk, double pressure) {
-  device_ = on_stroke_plane(x_, y_);
+  const Ray ray = camera_.ray(x_, y_);
+  mouse_.point({ray.origin, ray.direction});
+  device_ = mouse_.exchange({}, 0).pose.position;
   if (drag_ == Drag::stroke && desk.tool().kind != ToolKind::force && desk.now->scene)
-    if (const auto hit = pick(desk.now->scene->surface, camera_.ray(x_, y_))) device_ = hit->at;
+    if (const auto hit = pick(desk.now->scene->surface, ray)) device_ = hit->at;
   sculpt::StrokePose pose;
   pose.position = device_;
   pose.pressure = pressure;
@@ -336,7 +332,7 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
   if (input.wheel != 0 && !over_ui) {
     if (select_.wheel(desk, input.wheel)) {
     } else if (drag_ == Drag::stroke || drag_ == Drag::handle) {
-      depth_ += 12 * input.wheel * camera_.pixel_size(grip_);
+      mouse_.push(-12 * input.wheel * camera_.pixel_size(grip_));
       move_device(desk, input.pressure);
     } else if (desk.settings.peel > 0 && !control) {
       desk.settings.peel =

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "sculpt/haptics/mouse_device.h"
 #include "tools/studio/desk.h"
 #include "tools/studio/input.h"
 #include "tools/studio/picking.h"
@@ -47,7 +48,7 @@ class Viewport {
   void move_device(Desk& desk, double pressure);
   void move_plane(Desk& desk, double distance);
   void update_hover(Desk& desk, bool over_ui);
-  Eigen::Vector3d on_stroke_plane(double x, double y) const;
+  void take_hold(const Eigen::Vector3d& at);
   Box box_of(const Snapshot& now) const;
 
   const view::Gl* gl_;
@@ -76,7 +77,7 @@ class Viewport {
   bool inverts_ = false;
   // A stroke.
   Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_;
-  double depth_ = 0;  // towards the eye, by the wheel
+  sculpt::MouseDevice mouse_;
   // The brush while it is sized.
   double brush_start_ = 0, brush_now_ = 0;
 };
