@@ -40,6 +40,18 @@ TEST(Keys, ChordsReadBackAsTheyAreWritten) {
     EXPECT_THROW((void)parse_chord(wrong), Error) << wrong;
 }
 
+TEST(Keys, PresetsHaveNoTwoActionsWithOneKey) {
+  for (const KeyPreset& preset : key_presets()) {
+    Bindings bindings;
+    bindings.read(preset.lines, preset.name);
+    EXPECT_FALSE(bindings.collision()) << preset.name;
+    Bindings again;
+    again.read(bindings.changes(), "changes");
+    for (const ActionInfo& action : action_table())
+      EXPECT_EQ(again.key_of(action.action), bindings.key_of(action.action)) << action.word;
+  }
+}
+
 TEST(Keys, OnesOwnKeysStandInAndMayNotCollide) {
   Bindings bindings;
   bindings.read("# mine\nundo = Ctrl-U\nplay =\n", "keys");

@@ -283,6 +283,8 @@ const std::vector<KeyPreset>& key_presets() {
        "brush_strength = U\n"
        "frame_all = F\n"
        "wireframe = Shift-F\n"
+       "edit_split =\n"
+       "edit_duplicate =\n"
        "devices =\n"
        "finer = Ctrl-D\n"
        "coarser = Shift-D\n"},
