@@ -132,8 +132,9 @@ TEST(Blocking, NoFrameCallsWhatCouldWait) {
 
 // The watch itself works: what is called in a frame is seen.
 TEST(Blocking, WhatIsCalledInAFrameIsSeen) {
-  Workshop workshop(
-      BenchOptions{.out = std::filesystem::path(testing::TempDir()) / "studio_blocking_seen", .renderer = nullptr});
+  BenchOptions options;
+  options.out = std::filesystem::path(testing::TempDir()) / "studio_blocking_seen";
+  Workshop workshop(options);
   const WatchFrames watch(workshop);
   workshop.frame_begins();
   (void)std::filesystem::is_directory("/");
