@@ -44,7 +44,8 @@ std::string fault_of(const Include& include) {
     if (from.starts_with("tools/studio/") && what.starts_with("tools/") && !what.starts_with("tools/studio/") &&
         !what.starts_with("tools/view/"))
       return "tools/studio is built on tools/view alone";
-    if (what.starts_with("tools/studio/") && !starts_with_any(from, {"tools/studio/", "tools/argil/studio.cpp"}))
+    if (what.starts_with("tools/studio/") &&
+        !starts_with_any(from, {"tools/studio/", "tools/argil/studio.cpp", "tools/argil/bench_studio.cpp"}))
       return "only the program opens the studio";
   } else if (include.quoted) {
     return "must be \"room/file.h\" from the source folder, or in <> if it is of others";

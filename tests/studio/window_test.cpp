@@ -121,6 +121,25 @@ TEST(Window, EscTakesAStrokeBack) {
   EXPECT_EQ(hash(window), before);
 }
 
+TEST(Window, AChordWithinOneFrameKeepsItsModifiers) {
+  Offscreen window(options("chord"));
+  window.workshop().run("levels 1");
+  window.wait();
+  ASSERT_EQ(window.now().state.level, 1);
+  window.together({{key::left_control, true}, {'Z', true}, {'Z', false}, {key::left_control, false}});
+  window.wait();
+  EXPECT_EQ(window.now().state.level, 2);
+  // In a text field as well.
+  window.press("F3");
+  window.wait(2);
+  window.type("levels 9");
+  window.together({{key::backspace, true}, {key::backspace, false}});
+  window.type("1");
+  window.together({{key::enter, true}, {key::enter, false}});
+  window.wait(2);
+  EXPECT_EQ(window.now().state.level, 1);
+}
+
 TEST(Window, ShiftEscSwitchesAllForceOff) {
   Offscreen window(options("off"));
   window.workshop().run_together({"force 0 0 5 where z > 0.49", "gravity 0 0 -9.81"});

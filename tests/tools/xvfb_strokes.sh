@@ -33,11 +33,31 @@ xdotool key ctrl+z
 wait_for 'grep -q "^undo" "$journal"'
 xdotool key ctrl+shift+z
 wait_for 'grep -q "^redo" "$journal"'
-xdotool key ctrl+s
-sleep 0.5
-xdotool key ctrl+a
-xdotool type --delay 40 "$out/saved.argil"
-xdotool key Return
-wait_for '[ -s "$out/saved.argil" ]'
-xdotool key ctrl+q
+# On a busy machine a dialogue may come later than what is typed into it.
+for _ in $(seq 6); do
+  xdotool key ctrl+s
+  sleep 1.5
+  xdotool keydown ctrl
+  sleep 0.3
+  xdotool key a
+  sleep 0.3
+  xdotool keyup ctrl
+  xdotool type --delay 60 "$out/saved.argil"
+  sleep 0.5
+  xdotool key Return
+  sleep 1.5
+  [ -s "$out/saved.argil" ] && break
+  xdotool key Escape
+  sleep 0.5
+done
+[ -s "$out/saved.argil" ] || {
+  echo "the session was not saved" >&2
+  kill -9 "$program"
+  exit 1
+}
+for _ in $(seq 20); do
+  kill -0 "$program" 2>/dev/null || break
+  xdotool key ctrl+q
+  sleep 1
+done
 wait "$program"

@@ -71,6 +71,11 @@ void Offscreen::key(int which, bool down) {
   frame();
 }
 
+void Offscreen::together(const std::vector<KeyEvent>& events) {
+  input_.keys.insert(input_.keys.end(), events.begin(), events.end());
+  frame();
+}
+
 void Offscreen::press(const std::string& words) {
   const Chord chord = parse_chord(words);
   if (chord.control) key(key::left_control, true);

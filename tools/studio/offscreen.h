@@ -34,6 +34,8 @@ class Offscreen {
   void button(int which, bool down);  // 0 left, 1 right, 2 middle
   void wheel(double notches);
   void key(int key, bool down);
+  /// All within one frame.
+  void together(const std::vector<KeyEvent>& events);
   /// "Ctrl-Z", pressed and let go, with its modifiers.
   void press(const std::string& chord);
   void type(const std::string& text);

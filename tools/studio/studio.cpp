@@ -87,27 +87,54 @@ void Studio::perform(Action action) {
 }
 
 void Studio::take_input(const Input& input) {
+  controls_before_ = {control_, shift_, alt_};
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(input.width), static_cast<float>(input.height)};
   io.DeltaTime = static_cast<float>(std::max(1e-4, input.seconds));
   io.MousePos = input.x < 0 ? ImVec2{-FLT_MAX, -FLT_MAX} : ImVec2{input.x, input.y};
   for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = input.buttons[i];
   io.MouseWheel = input.wheel;
-  for (const KeyEvent& event : input.keys) {
-    if (event.key > 0 && event.key < 512) io.KeysDown[event.key] = event.down;
-    if (event.key == key::left_control || event.key == key::right_control) control_ = event.down;
-    if (event.key == key::left_shift || event.key == key::right_shift) shift_ = event.down;
-    if (event.key == key::left_alt || event.key == key::right_alt) alt_ = event.down;
-  }
+  // A key that comes and goes within one frame is down for all of it, else text fields would not see it.
+  for (const int late : let_go_late_) io.KeysDown[late] = false;
+  let_go_late_.clear();
   io.KeyCtrl = control_;
   io.KeyShift = shift_;
   io.KeyAlt = alt_;
+  std::vector<int> came;
+  for (const KeyEvent& event : input.keys) {
+    follow_modifiers(event);
+    io.KeyCtrl = io.KeyCtrl || control_;
+    io.KeyShift = io.KeyShift || shift_;
+    io.KeyAlt = io.KeyAlt || alt_;
+    if (event.key <= 0 || event.key >= 512) continue;
+    if (event.down) came.push_back(event.key);
+    if (!event.down && std::find(came.begin(), came.end(), event.key) != came.end())
+      let_go_late_.push_back(event.key);
+    else
+      io.KeysDown[event.key] = event.down;
+  }
+  if (came.empty()) {
+    io.KeyCtrl = control_;
+    io.KeyShift = shift_;
+    io.KeyAlt = alt_;
+  }
   for (const std::uint32_t c : input.characters) io.AddInputCharacter(c);
+}
+
+void Studio::follow_modifiers(const KeyEvent& event) {
+  if (event.key == key::left_control || event.key == key::right_control) control_ = event.down;
+  if (event.key == key::left_shift || event.key == key::right_shift) shift_ = event.down;
+  if (event.key == key::left_alt || event.key == key::right_alt) alt_ = event.down;
 }
 
 void Studio::take_keys(const Input& input) {
   const bool types = ImGui::GetIO().WantTextInput || ui_->is_editing();
+  // A whole chord may come within one frame: each key goes with the modifiers that were down before it.
+  control_ = controls_before_[0];
+  shift_ = controls_before_[1];
+  alt_ = controls_before_[2];
   for (const KeyEvent& event : input.keys) {
+    follow_modifiers(event);
     if (!event.down) {
       viewport_->key_released(desk_, event.key);
       continue;

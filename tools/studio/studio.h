@@ -2,7 +2,9 @@
 // One frame of the studio after another: input in, the window drawn. The same frame runs in a GLFW window and on
 // OSMesa.
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "tools/studio/chrome.h"
 #include "tools/studio/input.h"
@@ -47,6 +49,7 @@ class Studio {
  private:
   void take_input(const Input& input);
   void take_keys(const Input& input);
+  void follow_modifiers(const KeyEvent& event);
 
   Workshop* workshop_;
   ImGuiContext* context_;
@@ -54,8 +57,10 @@ class Studio {
   std::unique_ptr<UiRenderer> renderer_;
   std::unique_ptr<Viewport> viewport_;
   Desk desk_;
-  Input input_;  // of the last frame
+  Input input_;                   // of the last frame
+  std::vector<int> let_go_late_;  // keys, with the next frame
   bool control_ = false, shift_ = false, alt_ = false;
+  std::array<bool, 3> controls_before_{};  // those at the beginning of the frame
 };
 
 }  // namespace argil::studio

@@ -114,9 +114,11 @@ TEST(RandomStrokesSlow, UndoneAndRedoneTheyAreTheSame) {
       }
       hashes.push_back(after);
     }
+    // A stroke that was refused at the end has left its tool to be redone.
     const std::uint64_t end = session.hash();
+    const std::size_t depth = session->undo_depth();
     session.run({"undo all"});
-    session.run({"redo all"});
+    if (depth > 0) session.run({fmt::format("redo {}", depth)});
     ASSERT_EQ(session.hash(), end) << "seed " << seed;
   }
   fmt::print("{} strokes, {} touched nothing\n", made, refused);
