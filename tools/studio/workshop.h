@@ -121,6 +121,7 @@ class Workshop {
   DeviceShop shop_;
   std::unique_ptr<Hand> hand_;
   ReadyBrush ready_;
+  bool is_ready_ = false;  // a brush was laid ready
   bool hand_pressed_ = false, hand_strokes_ = false, real_time_ = false;
   sculpt::Tick hand_heard_ = 0;  // when it was last well
   std::atomic<std::shared_ptr<const DeviceNow>> device_now_;

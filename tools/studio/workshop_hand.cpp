@@ -59,6 +59,7 @@ void Workshop::use_device(std::string name, std::shared_ptr<sculpt::Device> devi
 void Workshop::lay_ready(const ReadyBrush& brush) {
   post([this, brush](Bench&) {
     ready_ = brush;
+    is_ready_ = true;
     if (!hand_strokes_) place_hand();
   });
 }
@@ -93,7 +94,7 @@ void Workshop::follow_hand() {
   device_.orientation = sample->pose.orientation;
   if (is_well(sample->mode)) device_.position = sample->pose.position;
   device_.pressure = 1;
-  if (pressed && !hand_pressed_ && !bench_.is_stroking()) {
+  if (pressed && !hand_pressed_ && is_ready_ && !bench_.is_stroking()) {
     StrokeStart start;
     start.pose = device_;
     start.tool = ready_.tool;
@@ -105,7 +106,7 @@ void Workshop::follow_hand() {
     hand_strokes_ = false;
   }
   hand_strokes_ = hand_strokes_ && bench_.is_stroking();
-  hand_pressed_ = pressed;
+  hand_pressed_ = pressed && is_ready_;
   hand_->publish(bench_.felt(device_.position, sample->now + k_model_life));
   device_now_.store(std::make_shared<const DeviceNow>(DeviceNow{hand_->name(), *sample, hand_->missed()}));
 }
