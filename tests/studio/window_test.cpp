@@ -234,6 +234,27 @@ TEST(Window, TheSearchRunsLinesAndNumbersTakeUnits) {
   EXPECT_NEAR(window.now().materials[0].mean, 2e4, 1e-6);
 }
 
+TEST(Window, ThePhysicsPanelLetsClayFlowAndPlotsEnergy) {
+  Offscreen window(options("flow"));
+  // Of the two controls named Physics the first is the menu.
+  window.studio().desk().settings.panel = Panel::physics;
+  window.wait(2);
+  window.click("Flows");
+  window.wait(3);
+  EXPECT_TRUE(window.now().state.plasticity.on);
+  EXPECT_NEAR(window.now().state.plasticity.law.yield, 1000, 1e-9);
+  window.press("Ctrl-Z");
+  window.wait(2);
+  EXPECT_FALSE(window.now().state.plasticity.on);
+  window.workshop().run("gravity 0 0 -9.81");
+  window.press("Space");
+  window.wait(20);
+  window.press("Space");
+  window.wait(2);
+  EXPECT_GT(window.studio().desk().energy_plot.size(), 5U);
+  EXPECT_GT(window.now().energy, 0);
+}
+
 TEST(Window, EveryControlHasATooltipAndEveryNumberItsUnit) {
   Offscreen window(options("controls"));
   std::size_t seen = 0;

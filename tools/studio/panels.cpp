@@ -161,6 +161,34 @@ void material_panel(Desk& desk) {
   ui.note("Paint stiffness or mass with the tools of the shelf to vary them.");
 }
 
+void flow_rows(Desk& desk) {
+  Ui& ui = *desk.ui;
+  const Snapshot& now = *desk.now;
+  const sculpt::Plasticity& flow = now.state.plasticity;
+  ui.section("Plastic flow");
+  bool flows = flow.on;
+  const double modulus = now.materials[static_cast<std::size_t>(sculpt::FieldName::young_modulus)].mean;
+  if (ui.toggle_row("Flows", flows, "Beyond its yield stress the clay keeps the shape that it was given"))
+    desk.run(flows ? fmt::format("plasticity yield {:.3g} creep 0.1", 0.05 * modulus) : "plasticity off");
+  if (!flow.on) return;
+  double yield = flow.law.yield, creep = flow.law.relaxation;
+  const auto take = [&] { desk.run(fmt::format("plasticity yield {} creep {}", yield, creep)); };
+  if (ui.number_row("Yield stress", yield,
+                    {.unit = "Pa",
+                     .tooltip = "Von Mises stress beyond which it flows; 0: it forgets all shape in time",
+                     .low = 0,
+                     .high = std::max(modulus, yield),
+                     .reset = 0.05 * modulus}))
+    take();
+  if (ui.number_row("Creep", creep,
+                    {.unit = "s",
+                     .tooltip = "Time in which what is beyond fades; 0: at once",
+                     .low = 0,
+                     .high = std::max(10.0, creep),
+                     .reset = 0.1}))
+    take();
+}
+
 void physics_panel(Desk& desk, float x, float width) {
   Ui& ui = *desk.ui;
   const Snapshot& now = *desk.now;
@@ -201,6 +229,7 @@ void physics_panel(Desk& desk, float x, float width) {
   bool guard = now.state.guard_on;
   if (ui.toggle_row("Guard", guard, "Notices what goes wrong in a step and mends it"))
     desk.run(guard ? "guard on" : "guard off");
+  flow_rows(desk);
   ui.section("Cost");
   reading(ui, "Time step", now.state.time_step, "s", "Of the simulation");
   ui.reading_row("A step takes", desk.virtual_clock || now.steps == 0 ? "—" : fmt::format("{:.1f}", now.step_ms),
