@@ -15,6 +15,8 @@
 
 #include "tools/studio/offscreen.h"
 
+#if !defined(__SANITIZE_ADDRESS__)  // which stands before the C library itself
+
 namespace argil::studio {
 namespace {
 
@@ -36,8 +38,6 @@ Function* next(const char* name) {
 
 }  // namespace
 }  // namespace argil::studio
-
-#if !defined(__SANITIZE_ADDRESS__)  // which stands there itself
 
 using argil::studio::next;
 using argil::studio::note;
