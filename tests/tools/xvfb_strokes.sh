@@ -17,22 +17,37 @@ journal=$out/journal.argil
 program=$!
 wait_for 'window=$(xdotool search --onlyvisible --name "^Argil$" | head -1) && [ -n "$window" ]'
 wait_for 'grep -q "^tool pull" "$journal" 2>/dev/null'
-xdotool windowfocus --sync "$window"
-sleep 1 # frames until the solid is there
-xdotool mousemove 600 330
-sleep 0.3
-xdotool mousedown 1
-for i in $(seq 15); do
-  xdotool mousemove 600 $((330 - 5 * i))
-  sleep 0.05
-done
-xdotool mouseup 1
-wait_for 'grep -q "^stroke path" "$journal"'
-wait_for 'grep -q "^commit" "$journal"'
-xdotool key ctrl+z
-wait_for 'grep -q "^undo" "$journal"'
-xdotool key ctrl+shift+z
-wait_for 'grep -q "^redo" "$journal"'
+# On a busy machine an event may come before the window is ready for it: what has no effect is done again.
+until_seen() { # PATTERN COMMAND…
+  local pattern=$1
+  shift
+  for _ in $(seq 12); do
+    xdotool windowfocus "$window"
+    "$@"
+    for _ in $(seq 30); do
+      grep -q "$pattern" "$journal" && return 0
+      sleep 0.1
+    done
+  done
+  echo "waited in vain for $pattern" >&2
+  kill -9 "$program"
+  exit 1
+}
+stroke() {
+  sleep 1
+  xdotool mousemove 600 330
+  sleep 0.3
+  xdotool mousedown 1
+  for i in $(seq 15); do
+    xdotool mousemove 600 $((330 - 5 * i))
+    sleep 0.05
+  done
+  xdotool mouseup 1
+}
+until_seen "^stroke path" stroke
+until_seen "^commit" sleep 0.1
+until_seen "^undo" xdotool key ctrl+z
+until_seen "^redo" xdotool key ctrl+shift+z
 # On a busy machine a dialogue may come later than what is typed into it.
 for _ in $(seq 6); do
   xdotool key ctrl+s
