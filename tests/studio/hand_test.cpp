@@ -88,6 +88,21 @@ TEST(StudioHand, AStrokeOfADeviceIsALineThatReplays) {
   EXPECT_EQ(session.document().state_hash(), made);
 }
 
+TEST(StudioHand, AStrokeOfTheMouseIsItsOwn) {
+  const auto drawn = [](const char* name, bool beside) {
+    Offscreen window(options(name));
+    if (beside)
+      window.workshop().use_device(
+          "far", std::make_shared<DrawingDevice>(Eigen::Vector3d(0.1, 0.1, 0.1), Eigen::Vector3d(-0.1, 0, 0)));
+    window.wait(2);
+    window.drag(430, 220, 440, 170, 12);
+    window.wait(2);
+    EXPECT_GT(window.now().undo_depth, 7U);
+    return window.workshop().bench().session().document().state_hash();
+  };
+  EXPECT_EQ(drawn("mouse_beside", true), drawn("mouse_alone", false));
+}
+
 TEST(StudioHand, TheDeviceIsSeenFromWhereTheViewerStands) {
   const sculpt::WorldFromDevice mapping =
       mapping_over(sculpt::DeviceCapabilities{}, {1, 2, 3}, 0.5, Eigen::Vector3d(0, 1, -0.5));

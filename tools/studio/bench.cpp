@@ -220,8 +220,7 @@ StrokeNow Bench::stroke_now() const {
   return now;
 }
 
-sculpt::ContactModel Bench::felt(const Eigen::Vector3d& at, sculpt::Tick valid_until) const {
-  if (stroke_) return stroke_->felt(valid_until);
+sculpt::ContactModel Bench::felt_at(const Eigen::Vector3d& at, sculpt::Tick valid_until) const {
   sculpt::ContactModel nothing;
   nothing.point = at;
   nothing.valid_until = valid_until;

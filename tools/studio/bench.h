@@ -77,8 +77,11 @@ class Bench {
   void end_stroke(bool keep);
   void cancel_stroke();
   bool is_stroking() const { return stroke_ != nullptr; }
-  /// What a device at `at` should feel until that tick: of the stroke, or nothing.
-  [[nodiscard]] sculpt::ContactModel felt(const Eigen::Vector3d& at, sculpt::Tick valid_until) const;
+  /// What a device should feel until that tick: one that draws the stroke under way, or one that is at a place.
+  [[nodiscard]] sculpt::ContactModel felt_by_stroke(sculpt::Tick valid_until) const {
+    return stroke_->felt(valid_until);
+  }
+  [[nodiscard]] sculpt::ContactModel felt_at(const Eigen::Vector3d& at, sculpt::Tick valid_until) const;
 
   void set_playing(bool on);
   bool is_playing() const { return playing_; }

@@ -30,7 +30,6 @@ Workshop::~Workshop() {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
-  cancelled_.store(true);  // of what runs: the window goes
   woken_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
@@ -85,7 +84,7 @@ bool Workshop::report_work(double share, const std::string& what) {
     work_reported_ = now;
     work_.store(std::make_shared<const Work>(Work{share, what, now - work_since_}));
   }
-  return !cancelled_.load();
+  return !cancelled_.load() && !ends_.load();
 }
 
 bool Workshop::do_orders() {
@@ -114,7 +113,7 @@ void Workshop::do_ticks(long ticks, long most) {
       continue;
     }
     if (hand_strokes_) {
-      bench_.tick_stroke(device_);
+      bench_.tick_stroke(hand_pose_);
       continue;
     }
     device_.position += share * (device_goal_.position - device_.position);
@@ -166,7 +165,7 @@ void Workshop::loop() {
       if (orders_.empty() && !ends_)
         woken_.wait_for(lock, std::chrono::duration<double>(busy ? k_tick : k_longest_wait),
                         [this] { return ends_ || !orders_.empty(); });
-      if (ends_) return;
+      if (ends_) break;
     }
     const bool was_stroking = bench_.is_stroking() || hand_, was_playing = bench_.is_playing();
     do_orders();
@@ -182,6 +181,7 @@ void Workshop::loop() {
     if (was_playing) do_play(seconds, 1);
     publish();
   }
+  do_orders();  // a file that was to be saved is saved; what takes long ends itself
 }
 
 }  // namespace argil::studio

@@ -98,13 +98,14 @@ class Workshop {
   // The hand: takes its newest sample, and gives it what it should feel.
   void follow_hand();
   void place_hand();
+  void take_hand(std::unique_ptr<Hand> hand);
   void drop_hand(const std::string& reason);
 
   Bench bench_;
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::vector<std::function<void(Bench&)>> orders_;
-  bool ends_ = false;
+  std::atomic<bool> ends_{false};
   bool report_work(double share, const std::string& what);
 
   std::atomic<std::shared_ptr<const Snapshot>> latest_;
@@ -120,6 +121,7 @@ class Workshop {
   // Of the device other than the mouse.
   DeviceShop shop_;
   std::unique_ptr<Hand> hand_;
+  sculpt::StrokePose hand_pose_;
   ReadyBrush ready_;
   bool is_ready_ = false;  // a brush was laid ready
   bool hand_pressed_ = false, hand_strokes_ = false, real_time_ = false;

@@ -26,33 +26,31 @@ void Workshop::list_devices() {
   });
 }
 
+void Workshop::take_hand(std::unique_ptr<Hand> hand) {
+  if (hand_strokes_) bench_.end_stroke(ready_.keep);
+  hand_ = std::move(hand);
+  device_now_.store(nullptr);
+  hand_pressed_ = hand_strokes_ = false;
+  hand_heard_ = 0;
+  place_hand();
+  if (hand_ && real_time_) hand_->start();
+}
+
 void Workshop::use_device(const std::string& name) {
-  post([this, name](Bench& bench) {
-    if (hand_strokes_) bench.end_stroke(ready_.keep);
-    hand_.reset();
-    device_now_.store(nullptr);
+  post([this, name](Bench&) {
+    take_hand(nullptr);
     if (name == "mouse" || !shop_.open) return;
     try {
-      hand_ = std::make_unique<Hand>(name, shop_.open(name));
+      take_hand(std::make_unique<Hand>(name, shop_.open(name)));
     } catch (const Error& error) {
       drop_hand(error.what());
-      return;
     }
-    hand_pressed_ = hand_strokes_ = false;
-    hand_heard_ = 0;
-    place_hand();
-    if (real_time_) hand_->start();
   });
 }
 
 void Workshop::use_device(std::string name, std::shared_ptr<sculpt::Device> device) {
-  post([this, name = std::move(name), device = std::move(device)](Bench& bench) {
-    if (hand_strokes_) bench.end_stroke(ready_.keep);
-    hand_ = std::make_unique<Hand>(name, device);
-    hand_pressed_ = hand_strokes_ = false;
-    hand_heard_ = 0;
-    place_hand();
-    if (real_time_) hand_->start();
+  post([this, name = std::move(name), device = std::move(device)](Bench&) {
+    take_hand(std::make_unique<Hand>(name, device));
   });
 }
 
@@ -74,10 +72,7 @@ void Workshop::place_hand() {
 }
 
 void Workshop::drop_hand(const std::string& reason) {
-  if (hand_strokes_) bench_.end_stroke(ready_.keep);
-  hand_strokes_ = false;
-  hand_.reset();
-  device_now_.store(nullptr);
+  take_hand(nullptr);
   bench_.say(MessageKind::warning, reason + "; the mouse sculpts");
 }
 
@@ -91,12 +86,14 @@ void Workshop::follow_hand() {
     return;
   }
   const bool pressed = is_well(sample->mode) && (sample->buttons & 1U) != 0;
-  device_.orientation = sample->pose.orientation;
-  if (is_well(sample->mode)) device_.position = sample->pose.position;
-  device_.pressure = 1;
+  if (is_well(sample->mode)) {
+    hand_pose_.position = sample->pose.position;
+    hand_pose_.orientation = sample->pose.orientation;
+  }
+  // While the mouse draws, the device waits, and feels obstacles only.
   if (pressed && !hand_pressed_ && is_ready_ && !bench_.is_stroking()) {
     StrokeStart start;
-    start.pose = device_;
+    start.pose = hand_pose_;
     start.tool = ready_.tool;
     tick_rest_ = 0;
     bench_.begin_stroke(start);
@@ -107,7 +104,8 @@ void Workshop::follow_hand() {
   }
   hand_strokes_ = hand_strokes_ && bench_.is_stroking();
   hand_pressed_ = pressed && is_ready_;
-  hand_->publish(bench_.felt(device_.position, sample->now + k_model_life));
+  const sculpt::Tick until = sample->now + k_model_life;
+  hand_->publish(hand_strokes_ ? bench_.felt_by_stroke(until) : bench_.felt_at(hand_pose_.position, until));
   device_now_.store(std::make_shared<const DeviceNow>(DeviceNow{hand_->name(), *sample, hand_->missed()}));
 }
 
