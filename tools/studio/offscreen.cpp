@@ -136,7 +136,8 @@ void Offscreen::draw() {
 
 sculpt::Picture Offscreen::picture() {
   context_.make_current();
-  studio_->draw(target_->framebuffer());
+  do studio_->draw(target_->framebuffer());
+  while (!studio_->viewport().is_finished());
   sculpt::Picture picture;
   picture.width = target_->width();
   picture.height = target_->height();

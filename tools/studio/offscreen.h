@@ -46,6 +46,8 @@ class Offscreen {
   /// Without any wait: the next frames see another size.
   void resize(int width, int height, float scale);
 
+  /// The time that the next frames take the one before them to have needed, in place of a sixtieth [s].
+  void took(double seconds) { input_.seconds = seconds; }
   /// Draws the last frame and waits until it is drawn.
   void draw();
   /// What the last frame shows. Only these draw: other frames are laid out, and seen by nobody.

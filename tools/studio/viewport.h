@@ -9,8 +9,10 @@
 #include "tools/studio/desk.h"
 #include "tools/studio/input.h"
 #include "tools/studio/picking.h"
+#include "tools/studio/sample_pace.h"
 #include "tools/studio/select_mode.h"
 #include "tools/view/overlay_painter.h"
+#include "tools/view/sample_average.h"
 #include "tools/view/scene_painter.h"
 
 namespace argil::studio {
@@ -28,6 +30,10 @@ class Viewport {
   void handle(Desk& desk, const Input& input, bool control, bool shift, bool over_ui);
   /// Takes what the snapshot has new to the graphics card and draws into the framebuffer of this name.
   void draw(const Desk& desk, const Input& input, unsigned framebuffer);
+  /// False while drawing the same again would show it smoother or better shaded.
+  bool is_finished() const {
+    return average_ && average_->count() == view::SampleAverage::k_most && painter_.is_shaded();
+  }
   /// What lies over the picture: numbers at the arrow, the plane's handle, why a tool cannot act.
   void draw_marks(Desk& desk);
 
@@ -61,13 +67,14 @@ class Viewport {
   std::size_t handle_ = 0;            // of the curve, while it is drawn
   bool right_armed_ = false;          // it may be a click
   double right_x_ = 0, right_y_ = 0;  // where the right button went down
-  std::unique_ptr<view::SampledTarget> target_;
+  std::unique_ptr<view::SampleAverage> average_;
+  SamplePace pace_;
   view::Place place_;
   OrbitCamera camera_;
   std::uint64_t layout_ = 0, version_ = 0;
   std::uint64_t framed_solid_ = 0;  // the one that the camera was last placed for
   std::shared_ptr<const sculpt::Scene> loaded_;
-  std::vector<float> drawn_;  // all that the picture in target_ depends on but for the scene
+  std::vector<float> drawn_;  // all that the picture depends on but for the scene
   bool scene_changed_ = true;
 
   std::optional<Hit> hover_;

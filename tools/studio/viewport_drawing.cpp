@@ -15,7 +15,6 @@ namespace argil::studio {
 
 namespace {
 
-constexpr int k_samples = 4;
 constexpr double k_longest_arrow = 0.3;  // of the solid's radius, at the force limit or where the force is large
 
 }  // namespace
@@ -23,9 +22,9 @@ constexpr double k_longest_arrow = 0.3;  // of the solid's radius, at the force 
 void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) {
   const Snapshot& now = *desk.now;
   const Settings& settings = desk.settings;
-  if (!target_ || target_->width() != input.width || target_->height() != input.height) {
+  if (!average_ || average_->width() != input.width || average_->height() != input.height) {
     scene_changed_ = true;
-    target_ = std::make_unique<view::SampledTarget>(*gl_, input.width, input.height, k_samples);
+    average_ = std::make_unique<view::SampleAverage>(*gl_, input.width, input.height);
   }
 
   if (now.version != version_ || layout_ == 0 || !loaded_ != !now.scene) {
@@ -46,6 +45,7 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
     loaded_ = now.scene;
   }
   painter_.set_look(settings.wireframe, settings.light, false);
+  if (painter_.shade_on()) scene_changed_ = true;
 
   // The force, where it holds the solid.
   const Tokens& t = desk.ui->tokens();
@@ -92,7 +92,7 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
     if (reach.allFinite()) box = {box.low.cwiseMin(reach), box.high.cwiseMax(reach)};
   }
   update_overlay(desk);
-  // Where nothing moved, the picture of before is taken again.
+  // Where nothing moved, the picture of before is taken again, with smoother edges.
   const view::Camera camera = camera_.camera(place_, box);
   std::vector<float> drawn(camera.clip_from_world.data(), camera.clip_from_world.data() + 16);
   for (const Eigen::Vector3f& middle : mark.middles) drawn.insert(drawn.end(), middle.data(), middle.data() + 3);
@@ -104,19 +104,23 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
        {static_cast<double>(mark.radius), static_cast<double>(mark.falloff), static_cast<double>(mark.tint.red),
         static_cast<double>(arrow_tint.red), settings.wireframe ? 1.0 : 0.0, settings.light ? 1.0 : 0.0})
     drawn.push_back(static_cast<float>(value));
-  if (!scene_changed_ && !overlay_changed_ && drawn == drawn_) {
-    target_->resolve(framebuffer);
-    return;
+  const bool moves = scene_changed_ || overlay_changed_ || drawn != drawn_;
+  pace_.frame(input.seconds, moves);
+  if (moves) {
+    painter_.set_brush(std::move(mark));
+    painter_.set_arrows(std::move(arrows), arrow_tint);
+    drawn_ = std::move(drawn);
+    scene_changed_ = overlay_changed_ = false;
+    average_->restart();
   }
-  painter_.set_brush(std::move(mark));
-  painter_.set_arrows(std::move(arrows), arrow_tint);
-  drawn_ = std::move(drawn);
-  scene_changed_ = overlay_changed_ = false;
-  target_->bind();
   const view::Sampling sampling{input.width, input.height, 1, input.scale};
-  painter_.paint(camera, sampling, 0, 0);
-  overlay_.paint(camera, sampling);
-  target_->resolve(framebuffer);
+  for (int i = 0; i < pace_.samples() && average_->count() < view::SampleAverage::k_most; ++i) {
+    const view::Camera shifted = average_->shifted(camera);
+    average_->begin_sample();
+    painter_.paint(shifted, sampling, 0, 0);
+    overlay_.paint(shifted, sampling);
+  }
+  average_->show(framebuffer);
 }
 
 void Viewport::draw_marks(Desk& desk) {

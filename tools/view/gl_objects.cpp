@@ -89,6 +89,12 @@ void VertexArray::upload(const void* records, std::size_t count, std::size_t siz
   }
 }
 
+void VertexArray::draw(const IndexRange& triangles) const {
+  bind();
+  gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.count), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(static_cast<std::uintptr_t>(4 * triangles.first)));
+}
+
 Image::Image(const Gl& gl, int width, int height, const std::vector<std::uint8_t>& rgba) : gl_(&gl) {
   gl.GenTextures(1, &texture_);
   bind_texture(GL_TEXTURE0);
@@ -99,45 +105,12 @@ Image::Image(const Gl& gl, int width, int height, const std::vector<std::uint8_t
     gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-SampledTarget::SampledTarget(const Gl& gl, int width, int height, int samples)
+Target::Target(const Gl& gl, int width, int height, bool depth, GLenum format)
     : gl_(&gl), width_(width), height_(height) {
-  GLint most = 1;
-  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  samples = std::min(samples, most);
-  gl.GenFramebuffers(1, &framebuffer_);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  const auto attach = [&](GLuint& buffer, GLenum format, GLenum place) {
-    gl.GenRenderbuffers(1, &buffer);
-    gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
-  };
-  attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0);
-  attach(depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
-  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error(ErrorCode::unsupported, "expected a drawing surface of " + std::to_string(width) + " x " +
-                                            std::to_string(height) + " pixels with " + std::to_string(samples) +
-                                            " samples, found that OpenGL gives none; make the window smaller");
-}
-
-SampledTarget::~SampledTarget() {
-  gl_->DeleteFramebuffers(1, &framebuffer_);
-  gl_->DeleteRenderbuffers(1, &colour_);
-  gl_->DeleteRenderbuffers(1, &depth_);
-}
-
-void SampledTarget::resolve(GLuint framebuffer) const {
-  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-}
-
-Target::Target(const Gl& gl, int width, int height, bool depth) : gl_(&gl), width_(width), height_(height) {
   gl.GenTextures(1, &texture_);
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, texture_);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -161,6 +134,13 @@ Target::~Target() {
   gl_->DeleteFramebuffers(1, &framebuffer_);
   gl_->DeleteTextures(1, &texture_);
   if (depth_ != 0) gl_->DeleteRenderbuffers(1, &depth_);
+}
+
+void Target::copy_to(GLuint framebuffer) const {
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
 void Target::read(int width, int rows, std::vector<std::uint8_t>& rgba) const {

@@ -35,6 +35,11 @@ struct Attribute {
   bool integer = false;
 };
 
+/// Some of a VertexArray's indices.
+struct IndexRange {
+  std::size_t first = 0, count = 0;
+};
+
 /// Interleaved vertices (or one record an instance) with optional indices.
 class VertexArray {
  public:
@@ -58,6 +63,8 @@ class VertexArray {
                        records.data());
   }
   void bind() const { gl_->BindVertexArray(array_); }
+  /// Triangles of these indices.
+  void draw(const IndexRange& triangles) const;
   GLsizei count() const { return count_; }  // indices if there are any, or records
 
  private:
@@ -87,32 +94,11 @@ class Image {
   GLuint texture_ = 0;
 };
 
-/// A target with several samples a pixel, which are averaged into another of the same size.
-class SampledTarget {
- public:
-  /// `samples` is lowered to what the context has. @throws Error (unsupported) if it cannot hold it.
-  SampledTarget(const Gl& gl, int width, int height, int samples);
-  ~SampledTarget();
-  SampledTarget(const SampledTarget&) = delete;
-  SampledTarget& operator=(const SampledTarget&) = delete;
-
-  void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
-  /// Into the framebuffer of this name, 0 being the window's.
-  void resolve(GLuint framebuffer) const;
-  int width() const { return width_; }
-  int height() const { return height_; }
-
- private:
-  const Gl* gl_;
-  int width_, height_;
-  GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
-};
-
-/// An RGBA8 target of a texture, with a depth buffer if asked for.
+/// A target of a texture, RGBA8 or of another format, with a depth buffer if asked for.
 class Target {
  public:
   /// @throws Error (unsupported) if the context cannot hold it.
-  Target(const Gl& gl, int width, int height, bool depth);
+  Target(const Gl& gl, int width, int height, bool depth, GLenum format = GL_RGBA8);
   ~Target();
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
@@ -122,6 +108,8 @@ class Target {
     gl_->ActiveTexture(unit);
     gl_->BindTexture(GL_TEXTURE_2D, texture_);
   }
+  /// Pixel for pixel into the framebuffer of this name, which is bound then; 0 is the window's.
+  void copy_to(GLuint framebuffer) const;
   GLuint framebuffer() const { return framebuffer_; }
   int width() const { return width_; }
   int height() const { return height_; }

@@ -11,16 +11,19 @@ GroundShadow::GroundShadow(const Gl& gl)
     : gl_(&gl),
       footprint_program_(gl, shaders::k_footprint_vertex, shaders::k_footprint_fragment),
       blur_program_(gl, shaders::k_whole_vertex, shaders::k_blur_fragment),
+      shade_program_(gl, shaders::k_whole_vertex, shaders::k_shade_fragment),
       ground_program_(gl, shaders::k_ground_vertex, shaders::k_ground_fragment),
       footprint_(gl, k_size, k_size, false),
-      between_(gl, k_size, k_size, false),
-      close_(gl, k_size, k_size, false),
-      wide_(gl, k_size, k_size, false),
+      half_close_(gl, k_close, k_close, false),
+      close_(gl, k_close, k_close, false),
+      half_wide_(gl, k_wide, k_wide, false),
+      wide_(gl, k_wide, k_wide, false),
+      shade_(gl, k_close, k_close, false),
       nothing_(gl) {
   nothing_.set(std::vector<float>(4, 0.0F), std::array<Attribute, 1>{{{0, 1}}});
 }
 
-void GroundShadow::prepare(const SurfaceMesh& mesh, const VertexArray& array) {
+void GroundShadow::prepare(const SurfaceMesh& mesh, const VertexArray& array, const IndexRange& triangles) {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(2), high = -low;
   for (const SurfaceVertex& vertex : mesh.vertices) {
     low = low.cwiseMin(vertex.position);
@@ -43,26 +46,35 @@ void GroundShadow::prepare(const SurfaceMesh& mesh, const VertexArray& array) {
   footprint_program_.use();
   gl.Uniform4f(footprint_program_.at("ground"), ground_[0], ground_[1], ground_[2], ground_[3]);
   gl.Uniform1f(footprint_program_.at("ground_height"), height_);
-  array.bind();
-  gl.DrawElements(GL_TRIANGLES, array.count(), GL_UNSIGNED_INT, nullptr);
+  array.draw(triangles);
   gl.BlendEquation(GL_FUNC_ADD);
   gl.Disable(GL_BLEND);
   const float close_sigma = 0.022F * broad, wide_sigma = 0.10F * broad;
-  blur(footprint_, close_, close_sigma / (2 * half_x), close_sigma / (2 * half_y));
-  blur(close_, wide_, wide_sigma / (2 * half_x), wide_sigma / (2 * half_y));
+  blur(footprint_, half_close_, close_, close_sigma / (2 * half_x), close_sigma / (2 * half_y));
+  blur(close_, half_wide_, wide_, wide_sigma / (2 * half_x), wide_sigma / (2 * half_y));
+  gl.Viewport(0, 0, k_close, k_close);
+  shade_program_.use();
+  gl.Uniform1i(shade_program_.at("close"), 0);
+  gl.Uniform1i(shade_program_.at("wide"), 1);
+  nothing_.bind();
+  close_.bind_texture(GL_TEXTURE0);
+  wide_.bind_texture(GL_TEXTURE1);
+  shade_.bind();
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void GroundShadow::blur(const Target& from, const Target& to, float sigma_x, float sigma_y) {
+void GroundShadow::blur(const Target& from, const Target& half, const Target& to, float sigma_x, float sigma_y) {
+  gl_->Viewport(0, 0, to.width(), to.height());
   blur_program_.use();
   gl_->Uniform1i(blur_program_.at("image"), 0);
   nothing_.bind();
   from.bind_texture(GL_TEXTURE0);
-  between_.bind();
-  gl_->Uniform2f(blur_program_.at("stride"), sigma_x / 4, 0);
+  half.bind();
+  gl_->Uniform2f(blur_program_.at("stride"), sigma_x / 2.5F, 0);
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
-  between_.bind_texture(GL_TEXTURE0);
+  half.bind_texture(GL_TEXTURE0);
   to.bind();
-  gl_->Uniform2f(blur_program_.at("stride"), 0, sigma_y / 4);
+  gl_->Uniform2f(blur_program_.at("stride"), 0, sigma_y / 2.5F);
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -77,10 +89,8 @@ void GroundShadow::paint(const Camera& camera, float opacity) const {
   gl.Uniform4f(ground_program_.at("ground"), ground_[0], ground_[1], ground_[2], ground_[3]);
   gl.Uniform1f(ground_program_.at("ground_height"), height_);
   gl.Uniform1f(ground_program_.at("opacity"), opacity);
-  close_.bind_texture(GL_TEXTURE0);
-  wide_.bind_texture(GL_TEXTURE1);
-  gl.Uniform1i(ground_program_.at("close"), 0);
-  gl.Uniform1i(ground_program_.at("wide"), 1);
+  shade_.bind_texture(GL_TEXTURE0);
+  gl.Uniform1i(ground_program_.at("shade"), 0);
   nothing_.bind();
   gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   gl.Disable(GL_BLEND);

@@ -136,6 +136,7 @@ class OffscreenRenderer final : public sculpt::Renderer {
 
     context_.make_current();
     painter_.load(scene, place, options);
+    while (!painter_.is_shaded()) painter_.shade_on();
     if (scene.volume)
       painter_.set_volume(
           volume_picture(*scene.volume, *scene.legend, place, camera, options.width, options.height), options.width,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace argil::view {
@@ -9,6 +10,7 @@ namespace argil::view {
 namespace {
 
 constexpr int k_size = 256;
+constexpr std::size_t k_triangles_at_once = 100'000;
 constexpr float k_extent = 1.15F;  // half the width of the depth pictures
 
 /// Directions evenly over the sphere above z = -0.35 (a spiral of golden angles).
@@ -49,50 +51,63 @@ void smooth(SurfaceMesh& mesh) {
 
 }  // namespace
 
-void measure_openness(const Gl& gl, const Program& depth_program, SurfaceMesh& mesh) {
+void OpennessMeasure::begin(const SurfaceMesh& mesh) {
+  mesh_ = mesh;
+  looked_ = 0;
+  directions_.clear();
   if (mesh.triangles.empty()) return;
-  const std::size_t triangle_count = mesh.triangles.size() / 3;
-  const int count = triangle_count < 150'000 ? 32 : triangle_count < 1'000'000 ? 12 : 6;
-  VertexArray array(gl);
-  array.set(mesh.vertices, k_surface_attributes, 0, mesh.triangles);
-  const Target target(gl, k_size, k_size, true);
-  target.bind();
+  const std::size_t triangles = mesh.simple_triangles.size() / 3;
+  directions_ = directions(triangles < 75'000 ? 32 : triangles < 500'000 ? 12 : 6);
+  array_.set(mesh.vertices, k_surface_attributes, 0, mesh.simple_triangles);
+  if (!target_) target_ = std::make_unique<Target>(*gl_, k_size, k_size, true);
+  seen_.assign(mesh.vertices.size(), 0.0F);
+  total_.assign(mesh.vertices.size(), 0.0F);
+}
+
+void OpennessMeasure::look_on() {
+  if (is_done()) return;
+  const Gl& gl = *gl_;
+  target_->bind();
   gl.Viewport(0, 0, k_size, k_size);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_LESS);
   gl.Disable(GL_BLEND);
   gl.ClearColor(1, 1, 1, 1);
-  depth_program.use();
+  program_->use();
+  const std::size_t now = std::max<std::size_t>(1, 3 * k_triangles_at_once / mesh_.simple_triangles.size());
+  for (std::size_t i = 0; i < now && !is_done(); ++i) look(directions_[looked_++]);
+}
 
-  std::vector<float> seen(mesh.vertices.size(), 0.0F), total(mesh.vertices.size(), 0.0F);
-  std::vector<std::uint8_t> bytes;
-  for (const Eigen::Vector3f& light : directions(count)) {
-    const Eigen::Matrix4f clip_from_world = look_along(light);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl.UniformMatrix4fv(depth_program.at("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
-    array.bind();
-    gl.DrawElements(GL_TRIANGLES, array.count(), GL_UNSIGNED_INT, nullptr);
-    target.read(k_size, k_size, bytes);
-    const float sky = light.z() > 0 ? 1.0F : 0.6F;
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      const SurfaceVertex& vertex = mesh.vertices[i];
-      const float cosine = vertex.normal.dot(light);
-      if (cosine <= 0.02F) continue;
-      // Off the surface by about two texels, so that it does not hide itself.
-      const Eigen::Vector4f place = clip_from_world * (vertex.position + 0.018F * vertex.normal).homogeneous();
-      const int x = std::clamp(static_cast<int>((0.5F + 0.5F * place.x()) * k_size), 0, k_size - 1);
-      const int y = std::clamp(static_cast<int>((0.5F + 0.5F * place.y()) * k_size), 0, k_size - 1);
-      const std::uint8_t* texel = &bytes[4 * static_cast<std::size_t>(y * k_size + x)];
-      const float depth = static_cast<float>(texel[0] | texel[1] << 8 | texel[2] << 16) / 16777215.0F;
-      total[i] += cosine * sky;
-      if (0.5F + 0.5F * place.z() <= depth + 0.006F) seen[i] += cosine * sky;
-    }
+void OpennessMeasure::look(const Eigen::Vector3f& light) {
+  const Gl& gl = *gl_;
+  const Eigen::Matrix4f clip_from_world = look_along(light);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl.UniformMatrix4fv(program_->at("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
+  array_.draw({0, mesh_.simple_triangles.size()});
+  target_->read(k_size, k_size, bytes_);
+  const float sky = light.z() > 0 ? 1.0F : 0.6F;
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    const SurfaceVertex& vertex = mesh_.vertices[i];
+    const float cosine = vertex.normal.dot(light);
+    if (cosine <= 0.02F) continue;
+    // Off the surface by about two texels, so that it does not hide itself.
+    const Eigen::Vector4f place = clip_from_world * (vertex.position + 0.018F * vertex.normal).homogeneous();
+    const int x = std::clamp(static_cast<int>((0.5F + 0.5F * place.x()) * k_size), 0, k_size - 1);
+    const int y = std::clamp(static_cast<int>((0.5F + 0.5F * place.y()) * k_size), 0, k_size - 1);
+    const std::uint8_t* texel = &bytes_[4 * static_cast<std::size_t>(y * k_size + x)];
+    const float depth = static_cast<float>(texel[0] | texel[1] << 8 | texel[2] << 16) / 16777215.0F;
+    total_[i] += cosine * sky;
+    if (0.5F + 0.5F * place.z() <= depth + 0.006F) seen_[i] += cosine * sky;
   }
+}
+
+void OpennessMeasure::write(SurfaceMesh& mesh) const {
+  assert(is_done() && mesh.vertices.size() == seen_.size());
   // A little always comes in, so that faces turned to the ground do not depend on two or three directions.
-  const float some = 0.03F * static_cast<float>(count);
+  const float some = 0.03F * static_cast<float>(directions_.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    mesh.vertices[i].openness = (seen[i] + 0.7F * some) / (total[i] + some);
+    mesh.vertices[i].openness = (seen_[i] + 0.7F * some) / (total_[i] + some);
   for (int round = 0; round < 2; ++round) smooth(mesh);
 }
 

@@ -1,6 +1,8 @@
 #include "tools/view/scene_painter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "tools/view/arrow_mesh.h"
 #include "tools/view/openness.h"
@@ -17,7 +19,12 @@ constexpr float k_hidden_pin = 0.32F;
 constexpr float k_wire_in_volume = 0.45F;
 constexpr float k_felt_below = 0.6F;  // of the force's colour, at the foot of the background
 // Shorter lines fade, so that a fine mesh does not cover what it lies on [pixels].
+constexpr std::size_t k_fine = 20'000;  // faces
 constexpr float k_wire_length = 22, k_cage_length = 8;
+constexpr float k_faded_length = 0.07F;    // of that, where nothing is left
+constexpr float k_unmeasured = 0.85F;      // openness, until it is known
+constexpr float k_invisible = 1.0F / 510;  // opacity
+constexpr float k_aside = 1.5F;  // a line away from the middle of the picture is no longer than by this factor
 
 using Line = std::array<Eigen::Vector3f, 2>;
 
@@ -71,6 +78,7 @@ ScenePainter::ScenePainter(const Gl& gl)
       arrow_program_(gl, shaders::k_arrow_vertex, shaders::k_arrow_fragment),
       image_program_(gl, shaders::k_whole_vertex, shaders::k_image_fragment),
       obstacle_program_(gl, shaders::k_surface_vertex, shaders::k_obstacle_fragment),
+      openness_(gl, depth_program_),
       shadow_(gl),
       nothing_(gl),
       surface_(gl),
@@ -90,12 +98,28 @@ void ScenePainter::load(const sculpt::Scene& scene, const Place& place, const sc
   std::vector<Eigen::Vector3f> positions;
   for (const Eigen::Vector3f& position : scene.surface.positions) positions.push_back(place(position));
   mesh_ = surface_mesh(scene.surface, positions);
-  if (draws_surface_) measure_openness(*gl_, depth_program_, mesh_);
-  surface_.set(mesh_.vertices, k_surface_attributes, 0, mesh_.triangles);
+  openness_.begin(draws_surface_ ? mesh_ : SurfaceMesh{});
+  shaded_ = false;
+  for (SurfaceVertex& vertex : mesh_.vertices) vertex.openness = k_unmeasured;
+  std::vector<std::uint32_t> indices = mesh_.triangles;
+  indices.insert(indices.end(), mesh_.simple_triangles.begin(), mesh_.simple_triangles.end());
+  surface_.set(mesh_.vertices, k_surface_attributes, 0, indices);
+  all_triangles_ = {0, mesh_.triangles.size()};
+  // Middles of faces shade coarse ones better; of fine ones nobody sees them.
+  shown_triangles_ = scene.surface.cell_from_face.size() < k_fine
+                         ? all_triangles_
+                         : IndexRange{mesh_.triangles.size(), mesh_.simple_triangles.size()};
   has_shadow_ = options.contact_shadow && (draws_surface_ || scene.volume) && !mesh_.triangles.empty();
-  if (has_shadow_) shadow_.prepare(mesh_, surface_);
+  if (has_shadow_) shadow_.prepare(mesh_, surface_, shown_triangles_);
   draws_surface_ = draws_surface_ && !mesh_.triangles.empty();
   volume_.reset();
+  wire_order_.resize(scene.surface.wire.size());
+  std::iota(wire_order_.begin(), wire_order_.end(), 0U);
+  std::sort(wire_order_.begin(), wire_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const auto squared = [&](const auto& ends) { return (positions[ends[1]] - positions[ends[0]]).squaredNorm(); };
+    const float of_a = squared(scene.surface.wire[a]), of_b = squared(scene.surface.wire[b]);
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
   load_lines(scene, place, positions);
 }
 
@@ -104,10 +128,24 @@ void ScenePainter::move(const sculpt::Scene& scene, const Place& place, bool sha
   positions.reserve(scene.surface.positions.size());
   for (const Eigen::Vector3f& position : scene.surface.positions) positions.push_back(place(position));
   argil::view::move(mesh_, scene.surface, positions);
-  if (draws_surface_ && shade_again) measure_openness(*gl_, depth_program_, mesh_);
+  if (draws_surface_ && shade_again) {
+    openness_.begin(mesh_);
+    shaded_ = false;
+  }
   if (!mesh_.vertices.empty()) surface_.refill(mesh_.vertices);
-  if (has_shadow_) shadow_.prepare(mesh_, surface_);
+  if (has_shadow_) shadow_.prepare(mesh_, surface_, shown_triangles_);
   load_lines(scene, place, positions);
+}
+
+bool ScenePainter::shade_on() {
+  if (shaded_) return false;
+  openness_.look_on();
+  if (!openness_.is_done()) return false;
+  shaded_ = true;
+  if (!draws_surface_) return false;
+  openness_.write(mesh_);
+  surface_.refill(mesh_.vertices);
+  return true;
 }
 
 void ScenePainter::set_look(bool wireframe, bool light_theme, bool hidden_pins) {
@@ -126,7 +164,12 @@ void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place,
   field_.reset();
   if (!scene.surface.values.empty()) field_ = scene.legend;
   std::vector<Line> lines;
-  for (const auto& ends : scene.surface.wire) lines.push_back({positions[ends[0]], positions[ends[1]]});
+  wire_lengths_.clear();
+  for (const std::uint32_t edge : wire_order_) {
+    const auto& ends = scene.surface.wire[edge];
+    lines.push_back({positions[ends[0]], positions[ends[1]]});
+    wire_lengths_.push_back((positions[ends[1]] - positions[ends[0]]).norm());
+  }
   wire_.set(lines, k_line_attributes, 1);
   lines.clear();
   for (const auto& ends : scene.cage_lines) lines.push_back({place(ends[0]), place(ends[1])});
@@ -206,14 +249,13 @@ void ScenePainter::hide_behind_surface(bool hide) const {
     gl_->Disable(GL_DEPTH_TEST);
 }
 
-void ScenePainter::draw_surface(const Program& program, const Camera& camera) const {
+void ScenePainter::look_from(const Program& program, const Camera& camera) const {
   const Gl& gl = *gl_;
   program.use();
   gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
   gl.UniformMatrix3fv(program.at("view_from_world"), 1, GL_FALSE, camera.view_from_world.data());
-  gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
-  surface_.bind();
-  gl.DrawElements(GL_TRIANGLES, surface_.count(), GL_UNSIGNED_INT, nullptr);
+  const Eigen::Vector3f eye = camera.view_from_world * camera.eye;
+  gl.Uniform3f(program.at("eye"), eye.x(), eye.y(), eye.z());
 }
 
 float ScenePainter::use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const {
@@ -229,14 +271,11 @@ float ScenePainter::use_in_pixels(const Program& program, const Camera& camera, 
 
 void ScenePainter::draw_obstacles(const Camera& camera, bool beneath) const {
   const Gl& gl = *gl_;
-  obstacle_program_.use();
+  look_from(obstacle_program_, camera);
   set_colour(gl, obstacle_program_.at("tint"), theme_->obstacle);
   for (const Obstacle& obstacle : obstacles_) {
     const bool faces = obstacle.is_ground && obstacle.normal.dot(camera.eye - obstacle.at) > 0;
     if (faces != beneath) continue;
-    gl.UniformMatrix4fv(obstacle_program_.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
-    gl.UniformMatrix3fv(obstacle_program_.at("view_from_world"), 1, GL_FALSE, camera.view_from_world.data());
-    gl.Uniform3f(obstacle_program_.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
     obstacle.surface->bind();
     // They are convex: what faces the eye is what is nearest to it.
     if (!obstacle.is_ground) gl.Enable(GL_CULL_FACE);
@@ -246,17 +285,28 @@ void ScenePainter::draw_obstacles(const Camera& camera, bool beneath) const {
 }
 
 void ScenePainter::draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling,
-                              float half_width, const Colour& tint, float full_length) const {
-  if (lines.count() == 0) return;
+                              float half_width, const Colour& tint, float full_length, GLsizei count) const {
+  count = std::min(count, lines.count());
+  if (count == 0) return;
   const Gl& gl = *gl_;
   const Program& program = line_program_;
   const float scale = use_in_pixels(program, camera, sampling);
   gl.Uniform1f(program.at("half_width"), half_width * scale);
-  gl.Uniform2f(program.at("visible_length"), 0.07F * full_length * scale, full_length * scale);
+  gl.Uniform2f(program.at("visible_length"), k_faded_length * full_length * scale, full_length * scale);
   gl.Uniform3f(program.at("distances"), camera.nearest, camera.farthest, 0.35F);
   set_colour(gl, program.at("tint"), tint);
   lines.bind();
-  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, lines.count());
+  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+GLsizei ScenePainter::visible_wires(const Camera& camera, const Sampling& sampling, float opacity) const {
+  // The strength that rounds to nothing, on the near side of smoothstep (3 t^2), and the length that has it.
+  const float t = std::sqrt(k_invisible / (3 * std::max(opacity, k_invisible)));
+  const float pixels = k_wire_length * (k_faded_length + t * (1 - k_faded_length)) * sampling.pixel;
+  const float shortest = pixels * camera.pixel_at_unit_distance * camera.nearest / k_aside;
+  std::size_t count = wire_lengths_.size();
+  while (count > 0 && wire_lengths_[count - 1] < shortest) --count;
+  return static_cast<GLsizei>(count);
 }
 
 void ScenePainter::draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape,
@@ -342,7 +392,7 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
     hide_behind_surface(true);
     gl.Enable(GL_POLYGON_OFFSET_FILL);
     gl.PolygonOffset(1, 2);
-    surface_program_.use();
+    look_from(surface_program_, camera);
     gl.Uniform1i(surface_program_.at("has_field"), field_ ? 1 : 0);
     if (field_)
       gl.Uniform2f(surface_program_.at("value_range"), static_cast<float>(field_->low),
@@ -356,14 +406,14 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
     const auto brushes = static_cast<GLint>(std::min<std::size_t>(brush_.middles.size(), 2));
     gl.Uniform1i(surface_program_.at("brush_count"), brushes);
     for (GLint i = 0; i < brushes; ++i) {
-      const Eigen::Vector3f& middle = brush_.middles[static_cast<std::size_t>(i)];
+      const Eigen::Vector3f middle = camera.view_from_world * brush_.middles[static_cast<std::size_t>(i)];
       const std::string name = "brush[" + std::to_string(i) + "]";
       gl.Uniform4f(surface_program_.at(name.c_str()), middle.x(), middle.y(), middle.z(), brush_.radius);
     }
     set_colour(gl, surface_program_.at("brush_tint"), brush_.tint);
     gl.Uniform2f(surface_program_.at("brush_look"), static_cast<float>(brush_.falloff),
                  1.6F * sampling.pixel * static_cast<float>(sampling.factor));
-    draw_surface(surface_program_, camera);
+    surface_.draw(shown_triangles_);
     gl.Disable(GL_POLYGON_OFFSET_FILL);
   }
 
@@ -373,7 +423,9 @@ void ScenePainter::paint(const Camera& camera, const Sampling& sampling, int x, 
   const Colour& wire_tint = !draws_surface_ ? theme.wire_alone : field_ ? theme.wire_on_field : theme.wire_on_clay;
   Colour shown_wire = wire_tint;
   if (volume_) shown_wire.alpha *= k_wire_in_volume;  // there it only says where the body ends
-  if (draws_wire_) draw_lines(wire_, camera, sampling, 0.5F, shown_wire, k_wire_length);
+  if (draws_wire_)
+    draw_lines(wire_, camera, sampling, 0.5F, shown_wire, k_wire_length,
+               visible_wires(camera, sampling, shown_wire.alpha));
 
   Colour hidden_cage = theme.cage;
   hidden_cage.alpha *= k_hidden;
@@ -414,7 +466,8 @@ void ScenePainter::paint_bytes(const Program& program, const Camera& camera, con
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!draws_surface_) return;
   gl.Enable(GL_DEPTH_TEST);
-  draw_surface(program, camera);
+  look_from(program, camera);
+  surface_.draw(all_triangles_);
 }
 
 }  // namespace argil::view

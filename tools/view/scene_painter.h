@@ -2,12 +2,14 @@
 // Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn
 // in tiles and at several samples a pixel.
 
+#include <climits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "tools/view/colour.h"
 #include "tools/view/ground_shadow.h"
+#include "tools/view/openness.h"
 
 namespace argil::view {
 
@@ -31,11 +33,15 @@ class ScenePainter {
   /// `gl` must outlive the painter, its context being current whenever a function is called.
   explicit ScenePainter(const Gl& gl);
 
-  /// Takes a scene in picture coordinates to the graphics card. Binds other targets.
+  /// Takes a scene in picture coordinates to the graphics card. Binds other targets. What is dark in hollows is not
+  /// known yet (shade_on).
   void load(const sculpt::Scene& scene, const Place& place, const sculpt::PictureOptions& options);
   /// Takes a scene that differs from the one loaded only in places and values. With `shade_again` what is dark in
-  /// hollows is measured again, which takes as long as loading.
+  /// hollows is measured anew, and stays as it was until that is done.
   void move(const sculpt::Scene& scene, const Place& place, bool shade_again);
+  /// Measures what is dark in hollows, for about as long as a frame takes. True if the picture is another now.
+  bool shade_on();
+  bool is_shaded() const { return shaded_; }
   /// Arrows in place of the scene's, in picture coordinates.
   void set_arrows(std::vector<sculpt::SceneArrow> arrows, const Colour& tint);
   void set_brush(BrushMark brush) { brush_ = std::move(brush); }
@@ -53,11 +59,14 @@ class ScenePainter {
  private:
   void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
   void load_lines(const sculpt::Scene& scene, const Place& place, const std::vector<Eigen::Vector3f>& positions);
-  void draw_surface(const Program& program, const Camera& camera) const;
+  /// Takes a program of surfaces and hands it the camera.
+  void look_from(const Program& program, const Camera& camera) const;
   /// Takes a program whose shapes have sizes in pixels; returns samples a pixel of the theme.
   float use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const;
   void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
-                  const Colour& tint, float full_length) const;
+                  const Colour& tint, float full_length, GLsizei count = INT_MAX) const;
+  /// How many of the wires, the longest first, may show at all: short ones fade.
+  GLsizei visible_wires(const Camera& camera, const Sampling& sampling, float opacity) const;
   void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
                   const Colour& tint, const Colour& ring, float opacity) const;
   /// Those drawn beneath the body, or above it.
@@ -70,6 +79,8 @@ class ScenePainter {
   const Gl* gl_;
   Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
       arrow_program_, image_program_, obstacle_program_;
+  OpennessMeasure openness_;
+  bool shaded_ = true;
   GroundShadow shadow_;
   VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, handles_, pins_;
   struct LineSet {
@@ -90,6 +101,9 @@ class ScenePainter {
   std::optional<Colour> arrow_tint_;
   float felt_ = 0;  // share of the background's colour
   SurfaceMesh mesh_;
+  IndexRange all_triangles_, shown_triangles_;  // of surface_
+  std::vector<std::uint32_t> wire_order_;       // the longest first, when it was loaded
+  std::vector<float> wire_lengths_;             // in that order
   BrushMark brush_;
   bool draws_hidden_pins_ = true;
   bool has_shadow_ = false, draws_surface_ = true, draws_wire_ = true;

@@ -35,6 +35,15 @@ uniform vec2 tile_origin, samples;  // of the whole picture
 out vec4 colour;
 void main() { colour = texture(image, (gl_FragCoord.xy + tile_origin) / samples); })";
 
+/// The same pixel of an image, times a weight.
+inline constexpr const char* k_weighted_fragment = R"(
+precision highp float;
+uniform sampler2D image;
+uniform float weight;
+out vec4 colour;
+void main() { colour = weight * texelFetch(image, ivec2(gl_FragCoord.xy), 0); })";
+
+/// What is handed on is packed: each output costs time a triangle where there is no graphics card.
 inline constexpr const char* k_surface_vertex = R"(
 precision highp float;
 layout(location = 0) in vec3 position;
@@ -43,21 +52,12 @@ layout(location = 2) in vec2 value_and_openness;
 layout(location = 3) in uvec2 cell_and_cut;
 uniform mat4 clip_from_world;
 uniform mat3 view_from_world;
-uniform vec3 eye;
-out vec3 view_normal, to_eye, to_lamp;
-out float value, openness;
-out vec3 place;
-flat out uint cell;
-flat out uint cut;
+out vec4 place_and_value, normal_and_openness;  // in axes of the view
+flat out uvec2 cell_cut;
 void main() {
-  place = position;
-  view_normal = view_from_world * normal;
-  to_lamp = vec3(-1.5, 2.3, 2.5) - view_from_world * position;
-  to_eye = view_from_world * (eye - position);
-  value = value_and_openness.x;
-  openness = value_and_openness.y;
-  cell = cell_and_cut.x;
-  cut = cell_and_cut.y;
+  place_and_value = vec4(view_from_world * position, value_and_openness.x);
+  normal_and_openness = vec4(view_from_world * normal, value_and_openness.y);
+  cell_cut = cell_and_cut;
   gl_Position = clip_from_world * vec4(position, 1.0);
 })";
 
@@ -65,24 +65,23 @@ void main() {
 /// highlight, a rim, and a bounce from the ground; fields keep their colours and take only a part of the light.
 inline constexpr const char* k_surface_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye, to_lamp;
-in float value, openness;
-flat in uint cell;
-flat in uint cut;
+in vec4 place_and_value, normal_and_openness;
+flat in uvec2 cell_cut;
 uniform vec2 value_range;
 uniform bool has_field;
 uniform vec3 field_colours[11];
-in vec3 place;
+uniform vec3 eye;           // in axes of the view
 uniform int brush_count;
-uniform vec4 brush[2];      // middle and radius
+uniform vec4 brush[2];      // middle, in axes of the view, and radius
 uniform vec4 brush_tint;
 uniform vec2 brush_look;    // falloff (0 smooth, 1 linear, 2 constant), width of the ring in samples
 out vec4 colour;
+const vec3 k_lamp = vec3(-1.5, 2.3, 2.5);
 
 // What a brush would touch: a ring where its radius ends on the surface, a tint that fades as its strength does.
 vec3 with_brushes(vec3 c) {
   for (int i = 0; i < brush_count; ++i) {
-    float away = length(place - brush[i].xyz), sample_size = max(fwidth(away), 1e-9), t = away / brush[i].w;
+    float away = length(place_and_value.xyz - brush[i].xyz), sample_size = max(fwidth(away), 1e-9), t = away / brush[i].w;
     float strength = brush_look.x < 0.5 ? (1.0 - t * t) * (1.0 - t * t) : brush_look.x < 1.5 ? 1.0 - t : 1.0;
     if (t < 1.0) c = mix(c, brush_tint.rgb, 0.34 * strength * brush_tint.a);
     float ring = clamp(0.5 * brush_look.y + 0.5 - abs(away - brush[i].w) / sample_size, 0.0, 1.0);
@@ -115,9 +114,10 @@ vec3 field_colour(float t) {
 }
 
 void main() {
-  vec3 n = normalize(view_normal), v = normalize(to_eye);
+  vec3 n = normalize(normal_and_openness.xyz), v = normalize(eye - place_and_value.xyz);
+  float value = place_and_value.w, openness = normal_and_openness.w;
   if (dot(n, v) < 0.0 && !gl_FrontFacing) n = -n;
-  vec3 key = normalize(to_lamp), fill = normalize(vec3(0.85, 0.10, 0.45));
+  vec3 key = normalize(k_lamp - place_and_value.xyz), fill = normalize(vec3(0.85, 0.10, 0.45));
   float open = mix(0.30, 1.0, openness);
   float facing = clamp(dot(n, v), 0.0, 1.0);
   float lit = 0.5 + 0.5 * dot(n, key);
@@ -131,7 +131,7 @@ void main() {
     return;
   }
   float t = lit * mix(0.42, 1.0, openness) + 0.07 * max(dot(n, fill), 0.0) * open;
-  vec3 c = ramp(t, cut != 0u);
+  vec3 c = ramp(t, cell_cut.y != 0u);
   c += vec3(1.00, 0.90, 0.78) * 0.13 * gloss * open;
   c += mix(vec3(0.36, 0.20, 0.13), vec3(0.55, 0.42, 0.36), 0.5 + 0.5 * n.y) * 0.34 * rim * open;
   c += vec3(0.10, 0.050, 0.028) * max(-n.y, 0.0) * open;
@@ -141,29 +141,28 @@ void main() {
 /// Matte and translucent, a little denser where it turns away; `value` is an opacity.
 inline constexpr const char* k_obstacle_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye, to_lamp;
-in float value, openness;
-flat in uint cell;
-flat in uint cut;
-in vec3 place;
+in vec4 place_and_value, normal_and_openness;
+flat in uvec2 cell_cut;
+uniform vec3 eye;
 uniform vec4 tint;
 out vec4 colour;
+const vec3 k_lamp = vec3(-1.5, 2.3, 2.5);
 void main() {
-  vec3 n = normalize(view_normal), v = normalize(to_eye);
+  vec3 n = normalize(normal_and_openness.xyz), v = normalize(eye - place_and_value.xyz);
+  float value = place_and_value.w;
   if (dot(n, v) < 0.0) n = -n;
-  float lit = 0.5 + 0.5 * dot(n, normalize(to_lamp));
+  float lit = 0.5 + 0.5 * dot(n, normalize(k_lamp - place_and_value.xyz));
   float rim = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 3.0);
   colour = vec4(tint.rgb * mix(0.55, 1.12, lit), value * mix(tint.a, min(1.0, tint.a + 0.3), rim));
 })";
 
 inline constexpr const char* k_id_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye, to_lamp;
-in float value, openness;
-flat in uint cell;
-flat in uint cut;
+in vec4 place_and_value, normal_and_openness;
+flat in uvec2 cell_cut;
 out vec4 colour;
 void main() {
+  uint cell = cell_cut.x;
   uvec4 bytes = uvec4(cell, cell >> 8u, cell >> 16u, cell >> 24u) & 255u;
   colour = vec4(bytes) / 255.0;
 })";
@@ -171,10 +170,8 @@ void main() {
 /// Depth along a direction as three bytes, for the openness of vertices.
 inline constexpr const char* k_depth_fragment = R"(
 precision highp float;
-in vec3 view_normal, to_eye, to_lamp;
-in float value, openness;
-flat in uint cell;
-flat in uint cut;
+in vec4 place_and_value, normal_and_openness;
+flat in uvec2 cell_cut;
 out vec4 colour;
 void main() {
   uint depth = uint(gl_FragCoord.z * 16777215.0);
@@ -202,17 +199,29 @@ inline constexpr const char* k_blur_fragment = R"(
 precision highp float;
 in vec2 across;
 uniform sampler2D image;
-uniform vec2 stride;  // one standard deviation / 4
+uniform vec2 stride;  // one standard deviation / 2.5
 out vec4 colour;
 void main() {
   vec4 sum = vec4(0.0);
   float weight = 0.0;
-  for (int i = -10; i <= 10; ++i) {
-    float w = exp(-float(i * i) / 32.0);
+  for (int i = -6; i <= 6; ++i) {
+    float w = exp(-float(i * i) / 12.5);
     sum += w * texture(image, across + float(i) * stride);
     weight += w;
   }
   colour = sum / weight;
+})";
+
+/// Both shadows as one, gone at the rim of the ground.
+inline constexpr const char* k_shade_fragment = R"(
+precision highp float;
+in vec2 across;
+uniform sampler2D close, wide;
+out vec4 colour;
+void main() {
+  vec2 edge = smoothstep(vec2(0.0), vec2(0.12), across) * smoothstep(vec2(0.0), vec2(0.12), 1.0 - across);
+  float shade = 1.0 - (1.0 - 0.80 * texture(close, across).r) * (1.0 - texture(wide, across).g);
+  colour = vec4(shade * edge.x * edge.y);
 })";
 
 inline constexpr const char* k_ground_vertex = R"(
@@ -228,14 +237,10 @@ void main() {
 inline constexpr const char* k_ground_fragment = R"(
 precision highp float;
 in vec2 across;
-uniform sampler2D close, wide;
+uniform sampler2D shade;
 uniform float opacity;
 out vec4 colour;
-void main() {
-  vec2 edge = smoothstep(vec2(0.0), vec2(0.12), across) * smoothstep(vec2(0.0), vec2(0.12), 1.0 - across);
-  float shade = 1.0 - (1.0 - 0.80 * texture(close, across).r) * (1.0 - 1.0 * texture(wide, across).g);
-  colour = vec4(0.02, 0.02, 0.025, opacity * shade * edge.x * edge.y);
-})";
+void main() { colour = vec4(0.02, 0.02, 0.025, opacity * texture(shade, across).r); })";
 
 /// Lines with a width in pixels, one instance a line. They are drawn a little nearer to the eye, along the ray, so
 /// that they lie on the surface. Short and distant ones fade, so that fine meshes do not turn black.

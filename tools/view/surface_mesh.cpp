@@ -140,6 +140,15 @@ SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<
     middle.cell = surface.cell_from_face[face];
     middle.cut = is_cut(surface, face) ? 1 : 0;
     mesh.vertices.push_back(middle);
+    const std::uint32_t* corner = &mesh.vertex_from_corner[first];
+    for (std::size_t i = 0; i < size; ++i) mesh.vertices[corner[i]].cut = middle.cut;  // rims are split
+    if (size <= 4)
+      for (std::size_t i = 2; i < size; ++i)
+        mesh.simple_triangles.insert(mesh.simple_triangles.end(), {corner[0], corner[i - 1], corner[i]});
+    else
+      mesh.simple_triangles.insert(mesh.simple_triangles.end(),
+                                   mesh.triangles.end() - static_cast<std::ptrdiff_t>(3 * size),
+                                   mesh.triangles.end());
   }
   move(mesh, surface, positions);
   return mesh;

@@ -14,13 +14,15 @@ struct SurfaceVertex {
   float value = 0;
   float openness = 1;      // of the sky above, 0 … 1 (openness.h)
   std::uint32_t cell = 0;  // of a face's middle; the last corner of each triangle decides (flat)
-  std::uint32_t cut = 0;
+  std::uint32_t cut = 0;   // 1: of a face that a cut laid open
 };
 
 struct SurfaceMesh {
   std::vector<SurfaceVertex> vertices;
   std::vector<std::uint32_t> triangles;           // 3 each; the last is always a face's middle
   std::vector<std::uint32_t> vertex_from_corner;  // of the surface's corners
+  // The same with quadrilaterals of two triangles, without middles and so without cells: half as many.
+  std::vector<std::uint32_t> simple_triangles;
 };
 
 /// `positions`: of the surface's vertices in the coordinates of the picture. Corners of a vertex share a normal
