@@ -1,14 +1,10 @@
 #include "tools/view/overlay_painter.h"
 
-#include "tools/view/shaders.h"
-
 namespace argil::view {
 
 namespace {
 
 constexpr std::array<Attribute, 3> k_triangle_attributes{{{0, 3}, {1, 3}, {2, 4}}};
-constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
-constexpr std::array<Attribute, 1> k_dot_attributes{{{0, 3}}};
 constexpr float k_behind = 0.4F;           // what is left of what lies behind the surface
 constexpr float k_veil_forward = 0.0006F;  // towards the eye, so that it lies over the surface, under its wires
 
@@ -39,10 +35,6 @@ void main() {
   colour = vec4(shade.rgb * mix(0.72, 1.08, lit), shade.a * opacity);
 })";
 
-void set_colour(const Gl& gl, GLint place, const Colour& c, float opacity) {
-  gl.Uniform4f(place, c.red, c.green, c.blue, c.alpha * opacity);
-}
-
 std::vector<TintedVertex> placed(const std::vector<TintedVertex>& vertices, const Place& place) {
   std::vector<TintedVertex> result = vertices;
   for (TintedVertex& vertex : result) vertex.position = place(vertex.position);
@@ -52,12 +44,7 @@ std::vector<TintedVertex> placed(const std::vector<TintedVertex>& vertices, cons
 }  // namespace
 
 OverlayPainter::OverlayPainter(const Gl& gl)
-    : gl_(&gl),
-      triangle_program_(gl, k_triangle_vertex, k_triangle_fragment),
-      line_program_(gl, shaders::k_line_vertex, shaders::k_line_fragment),
-      mark_program_(gl, shaders::k_mark_vertex, shaders::k_mark_fragment),
-      veil_(gl),
-      ghost_(gl) {}
+    : gl_(&gl), triangle_program_(gl, k_triangle_vertex, k_triangle_fragment), shapes_(gl), veil_(gl), ghost_(gl) {}
 
 void OverlayPainter::set(const Overlay& overlay, const Place& place) {
   veil_.set(placed(overlay.veil, place), k_triangle_attributes);
@@ -74,7 +61,7 @@ void OverlayPainter::set(const Overlay& overlay, const Place& place) {
     std::vector<Eigen::Vector3f> at;
     for (const Eigen::Vector3f& dot : set.at) at.push_back(place(dot));
     dots_.push_back({std::make_unique<VertexArray>(*gl_), set.tint, set.ring, set.radius, set.through});
-    dots_.back().array->set(at, k_dot_attributes, 1);
+    dots_.back().array->set(at, k_mark_attributes, 1);
   }
 }
 
@@ -93,38 +80,16 @@ void OverlayPainter::paint_triangles(const VertexArray& triangles, const Camera&
 }
 
 void OverlayPainter::paint_shapes(const Camera& camera, const Sampling& sampling, bool hidden) const {
-  const Gl& gl = *gl_;
-  const float factor = static_cast<float>(sampling.factor), scale = factor * sampling.pixel;
-  const float opacity = hidden ? k_behind : 1;
-  const auto use = [&](const Program& program) {
-    program.use();
-    gl.UniformMatrix4fv(program.at("clip_from_world"), 1, GL_FALSE, camera.clip_from_world.data());
-    gl.Uniform3f(program.at("eye"), camera.eye.x(), camera.eye.y(), camera.eye.z());
-    gl.Uniform2f(program.at("half_size"), 0.5F * factor * static_cast<float>(sampling.width),
-                 0.5F * factor * static_cast<float>(sampling.height));
-  };
-  use(line_program_);
   for (const Shapes& set : lines_) {
-    if (set.array->count() == 0 || (hidden && !set.through)) continue;
-    gl.Uniform1f(line_program_.at("half_width"), set.size * scale);
-    gl.Uniform2f(line_program_.at("visible_length"), 0, 0.5F);
-    gl.Uniform3f(line_program_.at("distances"), camera.nearest, camera.farthest, 0.8F);
-    set_colour(gl, line_program_.at("tint"), set.tint, opacity);
-    set.array->bind();
-    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, set.array->count());
+    if (hidden && !set.through) continue;
+    Colour tint = set.tint;
+    if (hidden) tint.alpha *= k_behind;
+    shapes_.lines(*set.array, camera, sampling, {tint, set.size, 0.5F, 0, 0.8F});
   }
-  use(mark_program_);
   for (const Shapes& set : dots_) {
-    if (set.array->count() == 0 || (hidden && !set.through)) continue;
-    gl.Uniform1f(mark_program_.at("radius"), set.size * scale);
-    gl.Uniform1f(mark_program_.at("outline"), 1.3F * scale);
-    gl.Uniform1f(mark_program_.at("forward"), 0.01F);
-    gl.Uniform1f(mark_program_.at("opacity"), opacity);
-    gl.Uniform1i(mark_program_.at("shape"), 0);
-    set_colour(gl, mark_program_.at("tint"), set.tint, 1);
-    set_colour(gl, mark_program_.at("ring"), set.ring, 1);
-    set.array->bind();
-    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, set.array->count());
+    if (hidden && !set.through) continue;
+    shapes_.marks(*set.array, camera, sampling,
+                  {MarkStyle::Shape::disc, set.size, set.tint, set.ring, hidden ? k_behind : 1, 0.01F});
   }
 }
 

@@ -8,8 +8,7 @@
 
 #include "tools/view/camera.h"
 #include "tools/view/colour.h"
-#include "tools/view/gl_objects.h"
-#include "tools/view/scene_painter.h"
+#include "tools/view/shape_painter.h"
 
 namespace argil::view {
 
@@ -59,7 +58,8 @@ class OverlayPainter {
   void paint_shapes(const Camera& camera, const Sampling& sampling, bool hidden) const;
 
   const Gl* gl_;
-  Program triangle_program_, line_program_, mark_program_;
+  Program triangle_program_;
+  ShapePainter shapes_;
   VertexArray veil_, ghost_;
   std::vector<Shapes> lines_, dots_;
 };

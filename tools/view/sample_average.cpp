@@ -1,12 +1,20 @@
 #include "tools/view/sample_average.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 
 #include "tools/view/shaders.h"
 
 namespace argil::view {
+
+namespace {
+
+// Sixteenths of a pixel. No two are in one row or column; any first ones have their middle near that of the pixel.
+constexpr std::array<std::array<float, 2>, SampleAverage::k_most> k_shifts{
+    {{0, 0}, {-5, 5}, {5, 1}, {-3, -5}, {-1, 3}, {-7, -1}, {3, 7}, {7, -7}}};
+
+}  // namespace
 
 SampleAverage::SampleAverage(const Gl& gl, int width, int height)
     : gl_(&gl),
@@ -18,14 +26,9 @@ SampleAverage::SampleAverage(const Gl& gl, int width, int height)
 }
 
 Camera SampleAverage::shifted(const Camera& camera) const {
-  // Additive recurrence on the plastic number: any number of first members lies evenly.
-  const auto within = [&](double step) {
-    const double place = 0.5 + step * count_;
-    return place - std::floor(place) - 0.5;
-  };
+  const auto& [right, up] = k_shifts[static_cast<std::size_t>(std::min(count_, k_most - 1))];
   Camera result = camera;
-  const auto x = static_cast<float>(2 * within(0.7548776662466927) / width()),
-             y = static_cast<float>(2 * within(0.5698402909980532) / height());
+  const float x = 2 * right / static_cast<float>(16 * width()), y = 2 * up / static_cast<float>(16 * height());
   result.clip_from_world.row(0) += x * camera.clip_from_world.row(3);
   result.clip_from_world.row(1) += y * camera.clip_from_world.row(3);
   return result;

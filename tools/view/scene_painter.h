@@ -2,23 +2,15 @@
 // Draws a scene with OpenGL into whatever target is bound, off the screen or in a window. The picture may be drawn
 // in tiles and at several samples a pixel.
 
-#include <climits>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "tools/view/colour.h"
 #include "tools/view/ground_shadow.h"
 #include "tools/view/openness.h"
+#include "tools/view/wires.h"
 
 namespace argil::view {
-
-/// How fine the picture is drawn.
-struct Sampling {
-  int width = 0, height = 0;  // of the picture [pixels]
-  int factor = 1;             // samples a pixel along each axis
-  float pixel = 1;            // lines and marks are as many pixels wide as at 1280 x 800 times this
-};
 
 /// Where a brush lies on the surface, in picture coordinates.
 struct BrushMark {
@@ -58,31 +50,26 @@ class ScenePainter {
 
  private:
   void paint_bytes(const Program& program, const Camera& camera, const Sampling& sampling, int x, int y) const;
-  void load_lines(const sculpt::Scene& scene, const Place& place, const std::vector<Eigen::Vector3f>& positions);
+  void load_lines(const sculpt::Scene& scene, const Place& place);
   /// Takes a program of surfaces and hands it the camera.
   void look_from(const Program& program, const Camera& camera) const;
-  /// Takes a program whose shapes have sizes in pixels; returns samples a pixel of the theme.
-  float use_in_pixels(const Program& program, const Camera& camera, const Sampling& sampling) const;
-  void draw_lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, float half_width,
-                  const Colour& tint, float full_length, GLsizei count = INT_MAX) const;
-  /// How many of the wires, the longest first, may show at all: short ones fade.
-  GLsizei visible_wires(const Camera& camera, const Sampling& sampling, float opacity) const;
-  void draw_marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling, int shape, float radius,
-                  const Colour& tint, const Colour& ring, float opacity) const;
   /// Those drawn beneath the body, or above it.
   void draw_obstacles(const Camera& camera, bool beneath) const;
+  void draw_background(const Sampling& sampling, int x, int y) const;
+  void draw_surface(const Camera& camera, const Sampling& sampling) const;
+  void draw_shapes(const Camera& camera, const Sampling& sampling) const;
   void draw_volume(const Sampling& sampling, int x, int y) const;
   void draw_line_sets(const Camera& camera, const Sampling& sampling, float opacity) const;
-  void draw_arrows(const Camera& camera, const Sampling& sampling) const;
   void hide_behind_surface(bool hide) const;
 
   const Gl* gl_;
-  Program background_program_, surface_program_, id_program_, depth_program_, line_program_, mark_program_,
-      arrow_program_, image_program_, obstacle_program_;
+  Program background_program_, surface_program_, id_program_, depth_program_, image_program_, obstacle_program_;
+  ShapePainter shapes_;
   OpennessMeasure openness_;
   bool shaded_ = true;
   GroundShadow shadow_;
-  VertexArray nothing_, surface_, wire_, cage_lines_, cage_points_, handles_, pins_;
+  Wires wires_;
+  VertexArray nothing_, surface_, cage_lines_, cage_points_, handles_, pins_;
   struct LineSet {
     sculpt::LineLook look;
     std::unique_ptr<VertexArray> lines;
@@ -95,15 +82,12 @@ class ScenePainter {
   };
   std::vector<Obstacle> obstacles_;
   std::unique_ptr<Image> volume_;
-  mutable VertexArray arrows_;  // their thickness depends on the camera
   std::vector<sculpt::SceneArrow> arrow_ends_;
   std::optional<sculpt::SceneLegend> field_;
   std::optional<Colour> arrow_tint_;
   float felt_ = 0;  // share of the background's colour
   SurfaceMesh mesh_;
   IndexRange all_triangles_, shown_triangles_;  // of surface_
-  std::vector<std::uint32_t> wire_order_;       // the longest first, when it was loaded
-  std::vector<float> wire_lengths_;             // in that order
   BrushMark brush_;
   bool draws_hidden_pins_ = true;
   bool has_shadow_ = false, draws_surface_ = true, draws_wire_ = true;
