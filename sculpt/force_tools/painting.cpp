@@ -78,7 +78,9 @@ void Painting::note(const Document& document, const StrokePose& from, const Stro
   const auto note = [&](Eigen::Index i, const Eigen::Vector3d& place, double share) {
     const Eigen::Vector3d offset = place - from.position;
     const double s = length_squared > 0 ? std::clamp(offset.dot(way) / length_squared, 0.0, 1.0) : 1;
-    const double weight = share * falloff_weight(falloff, (offset - s * way).norm() / tool_.radius) *
+    const double size = (1 - s) * from.size + s * to.size;
+    if (!(size > 0)) return;
+    const double weight = share * falloff_weight(falloff, (offset - s * way).norm() / (tool_.radius * size)) *
                           ((1 - s) * from.pressure + s * to.pressure);
     if (!(weight > largest_[i])) return;
     largest_[i] = weight;
