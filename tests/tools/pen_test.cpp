@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <sstream>
 #include <thread>
 
 #include "tests/tools/pen_server.h"
@@ -162,6 +163,62 @@ TEST(PenSlow, APenOfAnXServerIsHeard) {
   server.stop();
   EXPECT_TRUE(comes([&] { return !reader->state().plugged; }));
   EXPECT_EQ(reader->state().pressure, 1);
+}
+
+// A stroke from a light touch to a firm one, upwards from the middle of the block.
+void draw(tests::PenServer& server) {
+  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(40)); };
+  const auto move = [&](int up, double pressure) {
+    server.pen().move(600 / 1440.0 * 65536, (330 - up) / 900.0 * 65536, pressure);
+    pause();
+  };
+  for (int i = 0; i < 5; ++i) move(i % 2, 0);
+  server.pen().button(1, true);
+  for (int i = 0; i <= 15; ++i) move(5 * i, 200 + 40 * i);
+  for (int i = 0; i <= 15; ++i) move(75 + i % 2, 800);  // frames may be slow
+  server.pen().button(1, false);
+  pause();
+}
+
+TEST(PenSlow, AStrokeOfAPenInTheWindowIsJournaledWithItsPressure) {
+  if (!pens_supported()) GTEST_SKIP() << "this build has no XInput";
+  tests::PenServer server;
+  if (!server.runs()) GTEST_SKIP() << server.reason();
+  const tests::OtherDisplay display(server.display());
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path journal = folder / "out/journal.argil";
+  const auto line = [&](const std::string& beginning) {
+    std::istringstream lines(std::filesystem::is_regular_file(journal) ? tests::read_bytes(journal) : "");
+    for (std::string each; std::getline(lines, each);)
+      if (each.starts_with(beginning)) return each;
+    return std::string();
+  };
+  tests::Finished window;
+  std::thread runs([&] { window = tests::run_argil({"studio", "--out", "out"}, folder.path()); });
+  EXPECT_TRUE(comes([&] { return !line("tool pull").empty(); }));
+  // The window may not be ready for the first ones.
+  for (int i = 0; i < 8 && line("stroke path").find(" pressures") == std::string::npos; ++i) {
+    draw(server);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+  server.stop();  // and with it goes the window
+  runs.join();
+  EXPECT_EQ(window.status, 1) << window.err;
+  const std::string stroke = line("stroke path");
+  const std::size_t at = stroke.find(" pressures");
+  ASSERT_NE(at, std::string::npos) << stroke << window.err;
+  std::istringstream numbers(stroke.substr(at + 10));
+  double lowest = 1, highest = 0;
+  for (double pressure = 0; numbers >> pressure;) {
+    lowest = std::min(lowest, pressure);
+    highest = std::max(highest, pressure);
+  }
+  EXPECT_LT(lowest, 0.3);
+  EXPECT_GT(highest, 0.6);
+  EXPECT_LE(highest, 0.8);
+  const tests::Finished replayed =
+      tests::run_argil({"replay", "out/journal.argil", "--out", "replayed"}, folder.path());
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
 }
 
 }  // namespace
