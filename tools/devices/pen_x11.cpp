@@ -192,7 +192,7 @@ std::unique_ptr<PenReader> open_pens() {
 PensFound find_pens() {
   int extension = 0;
   const DisplayHandle display = open_display(extension);
-  if (!display) return {false, "no X display with XInput 2 answers (DISPLAY); elsewhere a pen is as a mouse"};
+  if (!display) return {false, "no X display answers (DISPLAY); without, a pen is as a mouse"};
   PenDecoder decoder;
   decoder.set_devices(list_pointing_devices(display.get()));
   PensFound found{!decoder.pens().empty(), {}};
