@@ -120,7 +120,7 @@ void ServerDevice::button(int which, bool down) {
 PenServer::PenServer() {
   for (const char* part : {k_server, k_driver, k_screen})
     if (access(part, R_OK) != 0) {
-      reason_ = fmt::format("there is no {}", part);
+      reason_ = fmt::format("there is no {}; tools/setup --pens installs it", part);
       return;
     }
   folder_.write("xorg.conf", configuration(folder_));

@@ -1,5 +1,5 @@
 // Pens: what drivers say of them, decoded; and a pen on an X server, by the server's own driver for tests, where
-// there is that (Debian: xserver-xorg-core, xserver-xorg-video-dummy).
+// there is that (tools/setup --pens).
 
 #include "tools/devices/pen.h"
 

@@ -12,10 +12,12 @@ namespace argil::studio {
 
 namespace {
 
-// A curve's handle holds on, and has no radius to scale.
+// A curve's handle holds on, and has no radius to scale; the probe only feels.
 double acting_pressure(const Desk& desk, const Input& input, bool of_handle) {
   const PenScales scales = desk.settings.pen;
-  return scales == PenScales::nothing || (of_handle && scales == PenScales::radius) ? 1 : input.pressure;
+  const bool none = scales == PenScales::nothing || desk.tool().kind == ToolKind::probe ||
+                    (of_handle && scales == PenScales::radius);
+  return none ? 1 : input.pressure;
 }
 
 }  // namespace
