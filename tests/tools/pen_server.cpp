@@ -14,6 +14,12 @@
 #include <cstring>
 #include <vector>
 
+#ifdef ARGIL_TEST_XINPUT
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
+#include <X11/extensions/XInput2.h>
+#endif
+
 namespace argil::tests {
 
 namespace {
@@ -70,6 +76,7 @@ ServerDevice::~ServerDevice() {
 }
 
 bool ServerDevice::connect(const std::filesystem::path& path) {
+  if (socket_ >= 0) close(socket_);
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -161,6 +168,29 @@ PenServer::PenServer() {
 
 PenServer::~PenServer() {
   stop();
+}
+
+void PenServer::enable(const std::string& device, bool on) {
+#ifdef ARGIL_TEST_XINPUT
+  Display* const display = XOpenDisplay(display_.c_str());
+  ASSERT_NE(display, nullptr);
+  int count = 0;
+  XIDeviceInfo* const all = XIQueryDevice(display, XIAllDevices, &count);
+  unsigned char enabled = on ? 1 : 0;
+  const Atom property = XInternAtom(display, "Device Enabled", False);
+  for (int i = 0; i < count; ++i)
+    if (device == all[i].name)
+      XIChangeProperty(display, all[i].deviceid, property, XA_INTEGER, 8, XIPropModeReplace, &enabled, 1);
+  XIFreeDeviceInfo(all);
+  XCloseDisplay(display);  // when all of it is done
+  for (std::size_t i = 0; i < k_devices.size(); ++i) {
+    if (!on || device != k_devices[i]) continue;
+    EXPECT_TRUE(devices_[i].connect(socket_of(folder_, i)));
+  }
+#else
+  (void)device;
+  (void)on;
+#endif
 }
 
 void PenServer::stop() {

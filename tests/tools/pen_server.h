@@ -52,6 +52,8 @@ class PenServer {
   const std::string& reason() const { return reason_; }  // why it does not
   const std::string& display() const { return display_; }
   void stop();
+  /// As when a device is plugged in or out.
+  void enable(const std::string& device, bool on);
 
   ServerDevice& pen() { return devices_[0]; }
   ServerDevice& eraser() { return devices_[1]; }
