@@ -64,8 +64,8 @@ class Stroke {
   const std::optional<ProbeReading>& reading() const { return reading_; }
 
   /// Makes all since the start one change of the session, and returns the session line that repeats it exactly:
-  ///   stroke path 0 x y z 17 x y z … [turns w x y z …] [pressures p … [scales radius]] [invert] [smoothing]
-  ///   [inside] curve through x y z … handle I path 0 x y z …
+  ///   stroke path 0 x y z 17 x y z … [turns w x y z …] [pressures p … [scales radius]] [invert] …
+  ///   curve through x y z … handle I path 0 x y z …
   std::string finish();
   /// The document as it was before the stroke.
   void cancel();
@@ -95,8 +95,8 @@ class Stroke {
   double softest_ = 0, stiffest_ = 0;  // readings so far [N/m]
   std::vector<Station> path_;          // what `line` tells
   StrokePose device_;                  // of the last tick, as it was told
-  StrokePose pose_, stepped_,
-      painted_;  // as the tool sees it: then, at the last step, at the end of what is painted
+  // As the tool sees it: of the last tick, the last step, the end of what is painted.
+  StrokePose pose_, stepped_, painted_;
   Tick tick_ = 0;
   double pending_ = 0;                       // ticks since the last step
   double largest_ = 0, largest_moment_ = 0;  // on the body so far [N], [N m]

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <thread>
 
+#include "subdiv/error.h"
 #include "tests/tools/pen_server.h"
 #include "tools/devices/device_table.h"
 
@@ -113,6 +114,15 @@ TEST(Pen, WhatMovedLastIsInTheHand) {
   const ValuatorNow then{4, 1024};
   decoder.take(12, {&then, 1});
   EXPECT_EQ(decoder.state().pressure, 0.25);
+}
+
+TEST(Pen, ItGoesWithTheMouse) {
+  try {
+    (void)open_device("pen");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("goes with the mouse"), std::string::npos);
+  }
 }
 
 TEST(Pen, WithoutADisplayThereIsNoneAndItSaysWhy) {

@@ -161,6 +161,9 @@ std::unique_ptr<OwnedDevice> open_device(const std::string& name) {
   if (name == "gamepad") return std::make_unique<OwnedRates>(open_gamepad());
   if (name.starts_with("network ")) return std::make_unique<OwnedNetwork>(address_of(name.substr(8)));
   if (name == "space_mouse") return std::make_unique<OwnedRates>(open_space_mouse());
+  if (name == "pen")
+    throw Error(ErrorCode::not_found,
+                "a pen is no device of its own: where there is one it goes with the mouse; leave --device out");
   throw Error(ErrorCode::not_found, fmt::format("expected hand, gamepad, space_mouse or `network ADDRESS:PORT`, "
                                                 "found \"{}\"; `argil devices` lists what is there",
                                                 name));
