@@ -20,10 +20,23 @@ bool finite(const StrokePose& pose) {
   return pose.position.allFinite() && pose.orientation.coeffs().allFinite() && std::isfinite(pose.pressure);
 }
 
+// What a line can repeat: a device says position, turn and pressure.
+StrokePose told(StrokePose pose) {
+  pose.pressure = std::clamp(pose.pressure, 0.0, 1.0);
+  pose.size = 1;
+  return pose;
+}
+
 }  // namespace
 
 Stroke::Stroke(Session& session, const StrokePose& first, const StrokeOptions& options)
-    : session_(session), options_(options), path_{{0, first}}, pose_(first), stepped_(first), painted_(first) {
+    : session_(session),
+      options_(options),
+      path_{{0, told(first)}},
+      device_(told(first)),
+      pose_(acting()),
+      stepped_(pose_),
+      painted_(pose_) {
   require_simulation(session);
   const Document& document = session.document();
   tool_ = document.state().tool;
@@ -33,10 +46,10 @@ Stroke::Stroke(Session& session, const StrokePose& first, const StrokeOptions& o
     mirror_ = tool_.symmetry - 'x';
     plane_ = mirror_plane(document, mirror_);
   }
-  hold(first);
+  hold(pose_);
   if (mirror_ >= 0 && !probe_) {
     try {
-      hold(mirrored(first, mirror_, plane_));
+      hold(mirrored(pose_, mirror_, plane_));
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("the mirror image: {}; or work without, `tool {} symmetry none`",
                                             error.what(), tool_.name));
@@ -47,6 +60,14 @@ Stroke::Stroke(Session& session, const StrokePose& first, const StrokeOptions& o
   first_step_ = session.steps().size();
   paint();
   read();
+}
+
+StrokePose Stroke::acting() const {
+  StrokePose pose = device_;
+  if (!options_.scales_radius) return pose;
+  pose.size = pose.pressure;
+  pose.pressure = 1;
+  return pose;
 }
 
 void Stroke::hold(const StrokePose& first) {
@@ -87,12 +108,13 @@ bool Stroke::tick(const StrokePose& pose) {
   assert(!over_);
   Document& document = session_.document();
   const double step_ticks = document.state().time_step / k_tick_seconds;
-  if (finite(pose)) pose_ = pose;  // else the device has lost itself: it stays where it was
+  if (finite(pose)) device_ = told(pose);  // else the device has lost itself: it stays where it was
+  pose_ = acting();
   ++tick_;
   pending_ += 1;
   bool stepped = false;
   while (pending_ >= step_ticks * (1 - 1e-12) && !session_.stop_requested()) {
-    if (!stepped) path_.push_back({tick_, pose_});
+    if (!stepped) path_.push_back({tick_, device_});
     stepped = true;
     pending_ -= step_ticks;
     stepped_ = pose_;
@@ -203,7 +225,7 @@ std::string Stroke::report() const {
 
 std::string Stroke::finish() {
   assert(!over_);
-  if (path_.back().tick != tick_) path_.push_back({tick_, pose_});
+  if (path_.back().tick != tick_) path_.push_back({tick_, device_});
   over_ = true;
   if (probe_) {  // changes nothing, so that there is nothing to undo
     read();
@@ -265,6 +287,7 @@ std::string Stroke::line() const {
   if (pressed) {
     text += " pressures";
     for (const auto& [tick, pose] : path_) text += fmt::format(" {}", pose.pressure);
+    if (options_.scales_radius) text += " scales radius";
   }
   if (options_.invert) text += " invert";
   if (options_.smoothing) text += " smoothing";

@@ -17,9 +17,10 @@
 namespace argil::sculpt {
 
 struct StrokeOptions {
-  bool invert = false;     // the opposite: deflate for inflate, push for pull, …
-  bool smoothing = false;  // smooth with the tool's brush, whatever the tool is
-  bool inside = false;     // hold what is inside the solid, even where its surface is within the radius
+  bool invert = false;         // the opposite: deflate for inflate, push for pull, …
+  bool smoothing = false;      // smooth with the tool's brush, whatever the tool is
+  bool scales_radius = false;  // pressure does, of a tool that goes over the body; else it scales the strength
+  bool inside = false;         // hold what is inside the solid, even where its surface is within the radius
   /// Not empty: a curve through these points is held, in place of what the tool touches, and the one of place
   /// `handle` follows the device.
   std::vector<Eigen::Vector3d> curve = {};
@@ -63,7 +64,7 @@ class Stroke {
   const std::optional<ProbeReading>& reading() const { return reading_; }
 
   /// Makes all since the start one change of the session, and returns the session line that repeats it exactly:
-  ///   stroke path 0 x y z 17 x y z … [turns w x y z …] [pressures p …] [invert] [smoothing] [inside]
+  ///   stroke path 0 x y z 17 x y z … [turns w x y z …] [pressures p … [scales radius]] [invert] …
   ///   curve through x y z … handle I path 0 x y z …
   std::string finish();
   /// The document as it was before the stroke.
@@ -74,6 +75,7 @@ class Stroke {
     Tick tick;
     StrokePose pose;
   };
+  [[nodiscard]] StrokePose acting() const;
   void hold(const StrokePose& first);
   void paint();
   void take_step();
@@ -90,9 +92,11 @@ class Stroke {
   std::unique_ptr<Painting> painting_;
   std::unique_ptr<Probe> probe_;
   std::optional<ProbeReading> reading_;
-  double softest_ = 0, stiffest_ = 0;    // readings so far [N/m]
-  std::vector<Station> path_;            // what `line` tells
-  StrokePose pose_, stepped_, painted_;  // of the last tick, the last step, the end of what is painted
+  double softest_ = 0, stiffest_ = 0;  // readings so far [N/m]
+  std::vector<Station> path_;          // what `line` tells
+  StrokePose device_;                  // of the last tick, as it was told
+  // As the tool sees it: of the last tick, the last step, the end of what is painted.
+  StrokePose pose_, stepped_, painted_;
   Tick tick_ = 0;
   double pending_ = 0;                       // ticks since the last step
   double largest_ = 0, largest_moment_ = 0;  // on the body so far [N], [N m]

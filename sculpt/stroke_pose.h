@@ -9,6 +9,7 @@ struct StrokePose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               // world [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // turns of the hand: twist, grab
   double pressure = 1;                                              // 0 … 1, scales the tool's force
+  double size = 1;  // 0 … 1, share of the tool's radius, for tools that go over the body
 };
 
 }  // namespace argil::sculpt

@@ -18,14 +18,12 @@ namespace {
 
 struct Path {
   std::vector<PoseSegment> segments;
-  std::vector<Tick> ticks;  // where pressures are given; linear between
-  std::vector<double> pressures;
   StrokePose first;
   Tick end = 0;
 };
 
 Path line_path(const Arguments& arguments, const Eigen::Vector3d& start) {
-  for (const char* name : {"turns", "pressures"})
+  for (const char* name : {"turns", "pressures", "scales"})
     if (arguments.has(name))
       throw Error(ErrorCode::bad_input, fmt::format("{} go with `path`, one for each station", name));
   const DevicePose from{start, Eigen::Quaterniond::Identity()};
@@ -46,15 +44,14 @@ Path station_path(const Arguments& arguments) {
   const std::vector<double>& numbers = arguments.numbers("path");
   const std::size_t count = numbers.size() / 4;
   std::vector<DevicePose> poses(count);
-  Path path;
+  std::vector<Tick> ticks;
   for (std::size_t i = 0; i < count; ++i) {
     const double tick = numbers[4 * i];
-    if (tick != std::floor(tick) || (i == 0 ? tick != 0 : tick <= static_cast<double>(path.ticks.back())) ||
-        tick > 1e9)
+    if (tick != std::floor(tick) || (i == 0 ? tick != 0 : tick <= static_cast<double>(ticks.back())) || tick > 1e9)
       throw Error(ErrorCode::bad_input,
                   fmt::format("station {} of the path is at tick {}; ticks are whole, begin with 0 and ascend",
                               i + 1, tick));
-    path.ticks.push_back(static_cast<Tick>(tick));
+    ticks.push_back(static_cast<Tick>(tick));
     poses[i].position = {numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
   }
   if (arguments.has("turns")) {
@@ -71,29 +68,26 @@ Path station_path(const Arguments& arguments) {
                                 poses[i].orientation.norm()));
     }
   }
-  path.pressures.assign(count, 1);
-  if (arguments.has("pressures")) path.pressures = arguments.numbers("pressures");
-  if (path.pressures.size() != count)
+  std::vector<double> pressures(count, 1.0);
+  if (arguments.has("pressures"))
+    pressures = arguments.numbers("pressures");
+  else if (arguments.has("scales"))
+    throw Error(ErrorCode::bad_input, "scales says what pressures scale; give pressures, one for each station");
+  if (pressures.size() != count)
     throw Error(ErrorCode::bad_input,
                 fmt::format("pressures are one for each of the {} stations of the path, found {}", count,
-                            path.pressures.size()));
-  path.segments = {{poses[0], poses[0], 0, Ease::linear, 1}};
-  for (std::size_t i = 1; i < count; ++i)
-    path.segments.push_back({poses[i - 1], poses[i], path.ticks[i] - path.ticks[i - 1], Ease::linear, 1});
+                            pressures.size()));
+  Path path;
+  const auto add = [&](std::size_t from, std::size_t to, Tick length) {
+    path.segments.push_back({poses[from], poses[to], length, Ease::linear, 1, pressures[from], pressures[to]});
+  };
+  add(0, 0, 0);
+  for (std::size_t i = 1; i < count; ++i) add(i - 1, i, ticks[i] - ticks[i - 1]);
   const Tick hold = arguments.integer("hold", 0);
-  path.segments.push_back({poses.back(), poses.back(), hold, Ease::linear, 1});
-  path.first = {poses[0].position, poses[0].orientation, path.pressures[0]};
-  path.end = path.ticks.back() + hold;
+  add(count - 1, count - 1, hold);
+  path.first = {poses[0].position, poses[0].orientation, pressures[0]};
+  path.end = ticks.back() + hold;
   return path;
-}
-
-double pressure_at(const Path& path, Tick tick) {
-  if (path.ticks.empty() || tick >= path.ticks.back()) return path.ticks.empty() ? 1 : path.pressures.back();
-  const auto next =
-      static_cast<std::size_t>(std::upper_bound(path.ticks.begin(), path.ticks.end(), tick) - path.ticks.begin());
-  const double s = static_cast<double>(tick - path.ticks[next - 1]) /
-                   static_cast<double>(path.ticks[next] - path.ticks[next - 1]);
-  return s == 0 ? path.pressures[next - 1] : (1 - s) * path.pressures[next - 1] + s * path.pressures[next];
 }
 
 void run_stroke(Session& session, const Path& path, const StrokeOptions& options, bool by_hand) {
@@ -110,8 +104,8 @@ void run_stroke(Session& session, const Path& path, const StrokeOptions& options
   Servo servo(device, channel);
   channel.publish(stroke.felt(life));
   for (Tick tick = 1; tick <= path.end && !session.stop_requested(); ++tick) {
-    const DevicePose pose = servo.tick(tick).sample.pose;
-    if (stroke.tick({pose.position, pose.orientation, pressure_at(path, tick)}))
+    const DeviceSample sample = servo.tick(tick).sample;
+    if (stroke.tick({sample.pose.position, sample.pose.orientation, sample.pressure}))
       channel.publish(stroke.felt(tick + life));
   }
   static_cast<void>(stroke.finish());
@@ -129,6 +123,7 @@ void stroke(Session& session, const Arguments& arguments) {
   options.invert = arguments.has("invert");
   options.smoothing = arguments.has("smoothing");
   options.inside = arguments.has("inside");
+  options.scales_radius = arguments.word("scales", "strength") == "radius";
   run_stroke(session, path, options, by_hand(arguments));
 }
 
@@ -250,7 +245,12 @@ std::vector<Command> stroke_commands() {
                       .low = -1e9,
                       .high = 1e9,
                       .unless = "path"}},
-                    {{.name = "invert", .help = "the opposite of the tool: pull pushes", .flag = true},
+                    {{.name = "scales",
+                      .type = ArgumentType::word,
+                      .help = "what pressures scale: the strength, or the radius of tools that go over the body "
+                              "(inflate, pinch, smooth, those that paint); what holds on, as pull, is then as at 1",
+                      .choices = {"strength", "radius"}},
+                     {.name = "invert", .help = "the opposite of the tool: pull pushes", .flag = true},
                      {.name = "smoothing", .help = "smooth with the tool's brush, whatever the tool", .flag = true},
                      {.name = "inside",
                       .help = "hold what is within the radius inside the solid; else it is the surface, if that is "

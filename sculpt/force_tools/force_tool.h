@@ -41,11 +41,11 @@ class ForceTool {
   [[nodiscard]] virtual Eigen::Vector3d force(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
     return wrench(pose, positions).force;
   }
-  /// That force changes with the device's position so much in any direction [N/m].
+  /// That force changes with the device's position so much in any direction, at full pressure [N/m].
   [[nodiscard]] virtual double stiffness() const { return 0; }
   /// What the device feels at the pose; by default the opposite of that force.
   [[nodiscard]] virtual Felt felt(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const {
-    return {-force(pose, positions), -stiffness() * Eigen::Matrix3d::Identity()};
+    return {-force(pose, positions), -pose.pressure * stiffness() * Eigen::Matrix3d::Identity()};
   }
 
   /// Force, and moment about the origin, of what `loads` gives.

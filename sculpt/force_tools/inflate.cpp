@@ -35,14 +35,15 @@ Eigen::Matrix3d cofactors(const Eigen::Matrix3d& f) {
 class Inflate : public ForceTool {
  public:
   Inflate(const Document& document, const Tool& tool, const StrokePose& first, const GripOptions& options)
-      : document_(document), tool_(tool), options_(options), at_(first.position) {
+      : document_(document), tool_(tool), options_(options), held_{first.position} {
     hold(touch(document, tool, first.position, options.inside));
   }
 
   void follow(const StrokePose& pose, const Document& document) override {
-    if ((pose.position - at_).norm() <= new_hold_distance(tool_)) return;
-    at_ = pose.position;
-    hold(touched(document, tool_, at_, options_.inside));
+    if (!wants_new_hold(tool_, held_, pose)) return;
+    held_ = pose;
+    const LaidTool laid = laid_tool(document, tool_, held_, options_.inside);
+    hold(touched(document, laid.tool, laid.at, options_.inside));
   }
 
   fem::Loads loads(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const override {
@@ -60,7 +61,7 @@ class Inflate : public ForceTool {
   }
 
   Eigen::Vector3d held(const Eigen::Matrix3Xd& positions) const override {
-    return touched_.empty() ? at_ : fem::position(middle_, positions);
+    return touched_.empty() ? held_.position : fem::position(middle_, positions);
   }
 
  private:
@@ -113,7 +114,7 @@ class Inflate : public ForceTool {
   const Document& document_;
   Tool tool_;
   GripOptions options_;
-  Eigen::Vector3d at_;
+  StrokePose held_;  // where it took hold
   Touched touched_;
   fem::PointStencil middle_;
 };

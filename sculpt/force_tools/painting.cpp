@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "sculpt/document_loads.h"
 #include "sculpt/region.h"
@@ -34,6 +35,24 @@ void hold_still(fem::BodyState& motion, Eigen::Index control_point) {
     motion.previous_velocities.col(control_point).setZero();
   }
   if (motion.accelerations.cols() > 0) motion.accelerations.col(control_point).setZero();
+}
+
+// Where on a way a brush whose size changes comes nearest, by its size: the least (offset − s way)² / size(s)² is
+// at an end or where the derivative, linear in s but for a factor, is zero.
+double nearest_by_size(const Eigen::Vector3d& offset, const Eigen::Vector3d& way, double from, double to) {
+  const double along = offset.dot(way), length_squared = way.squaredNorm(), growth = to - from;
+  const double inner = (along * from + growth * offset.squaredNorm()) / (length_squared * from + along * growth);
+  double best = 1, least = std::numeric_limits<double>::infinity();
+  for (const double s : {1.0, 0.0, inner}) {
+    const double size = (1 - s) * from + s * to;
+    if (!(s >= 0 && s <= 1 && size > 0)) continue;
+    const double distance = (offset - s * way).norm() / size;
+    if (distance < least) {
+      least = distance;
+      best = s;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -77,8 +96,11 @@ void Painting::note(const Document& document, const StrokePose& from, const Stro
   const double length_squared = way.squaredNorm();
   const auto note = [&](Eigen::Index i, const Eigen::Vector3d& place, double share) {
     const Eigen::Vector3d offset = place - from.position;
-    const double s = length_squared > 0 ? std::clamp(offset.dot(way) / length_squared, 0.0, 1.0) : 1;
-    const double weight = share * falloff_weight(falloff, (offset - s * way).norm() / tool_.radius) *
+    double s = length_squared > 0 ? std::clamp(offset.dot(way) / length_squared, 0.0, 1.0) : 1;
+    if (from.size != to.size) s = nearest_by_size(offset, way, from.size, to.size);
+    const double size = (1 - s) * from.size + s * to.size;
+    if (!(size > 0)) return;
+    const double weight = share * falloff_weight(falloff, (offset - s * way).norm() / (tool_.radius * size)) *
                           ((1 - s) * from.pressure + s * to.pressure);
     if (!(weight > largest_[i])) return;
     largest_[i] = weight;

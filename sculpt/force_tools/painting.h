@@ -27,7 +27,8 @@ class Painting {
   Painting(const Document& document, const Tool& tool, const Eigen::Vector3d& at, const GripOptions& options);
 
   /// Notes what is within the radius of the straight way between two poses (of the surface and inside), weighted by
-  /// falloff, pressure and what the mask leaves. Cost O(nodes of the finest level).
+  /// falloff, pressure and what the mask leaves; the radius is that of the poses' size. Cost O(nodes of the finest
+  /// level).
   void note(const Document& document, const StrokePose& from, const StrokePose& to);
   /// Gives the body what is noted; but if `at` [m] is said, only where that is a quarter of the radius from where
   /// it was when this was done last, as new materials cost a new factor of the stiffness.

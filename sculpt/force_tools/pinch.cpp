@@ -12,14 +12,15 @@ class Pinch : public ForceTool {
         options_(options),
         patch_(touch_patch(document, tool, first.position, options.inside)),
         middle_(middle_of(patch_.touched)),
-        at_(first.position) {}
+        held_{first.position} {}
 
   void follow(const StrokePose& pose, const Document& document) override {
-    if ((pose.position - at_).norm() <= new_hold_distance(tool_)) return;
-    at_ = pose.position;
-    touches_ = !touched(document, tool_, at_, options_.inside).empty();
+    if (!wants_new_hold(tool_, held_, pose)) return;
+    held_ = pose;
+    const LaidTool laid = laid_tool(document, tool_, held_, options_.inside);
+    touches_ = !touched(document, laid.tool, laid.at, options_.inside).empty();
     if (!touches_) return;
-    patch_ = touch_patch(document, tool_, at_, options_.inside);
+    patch_ = touch_patch(document, laid.tool, laid.at, options_.inside);
     middle_ = middle_of(patch_.touched);
   }
 
@@ -45,7 +46,7 @@ class Pinch : public ForceTool {
   GripOptions options_;
   TouchedPatch patch_;
   fem::PointStencil middle_;
-  Eigen::Vector3d at_;
+  StrokePose held_;  // where it took hold
   bool touches_ = true;
 };
 

@@ -51,14 +51,15 @@ struct Bump {
 class Smooth : public ForceTool {
  public:
   Smooth(const Document& document, const Tool& tool, const StrokePose& first, const GripOptions& options)
-      : tool_(tool), options_(options), at_(first.position), time_step_(document.state().time_step) {
-    hold(document, touch(document, tool, at_, options.inside));
+      : tool_(tool), options_(options), held_{first.position}, time_step_(document.state().time_step) {
+    hold(document, {tool, first.position}, touch(document, tool, first.position, options.inside));
   }
 
   void follow(const StrokePose& pose, const Document& document) override {
-    if ((pose.position - at_).norm() <= new_hold_distance(tool_)) return;
-    at_ = pose.position;
-    hold(document, touched(document, tool_, at_, options_.inside));
+    if (!wants_new_hold(tool_, held_, pose)) return;
+    held_ = pose;
+    const LaidTool laid = laid_tool(document, tool_, held_, options_.inside);
+    hold(document, laid, touched(document, laid.tool, laid.at, options_.inside));
   }
 
   fem::Loads loads(const StrokePose& pose, const Eigen::Matrix3Xd& positions) const override {
@@ -85,20 +86,20 @@ class Smooth : public ForceTool {
   }
 
   Eigen::Vector3d held(const Eigen::Matrix3Xd& positions) const override {
-    return touches_ ? fem::position(middle_, positions) : at_;
+    return touches_ ? fem::position(middle_, positions) : held_.position;
   }
 
  private:
-  void hold(const Document& document, const Touched& touched) {
+  void hold(const Document& document, const LaidTool& laid, const Touched& touched) {
     bumps_.clear();
     touches_ = !touched.empty();
     if (!touches_) return;
     middle_ = middle_of(touched);
     // Means reach beyond what is touched, and what is there feels the opposite force.
-    Tool wide = tool_;
+    Tool wide = laid.tool;
     wide.radius *= 2;
     wide.falloff = "constant";
-    const Touched around = sculpt::touched(document, wide, at_, touched.inside, Masks::ignored);
+    const Touched around = sculpt::touched(document, wide, laid.at, touched.inside, Masks::ignored);
     const Eigen::Matrix3Xd nodes = subdiv::apply(document.discretization().nodes.rows, document.positions());
     const Eigen::Matrix3Xd normals = touched.inside ? Eigen::Matrix3Xd() : normals_of(around, nodes);
     const Eigen::Matrix3Xd own = touched.inside ? Eigen::Matrix3Xd() : normals_of(touched, nodes);
@@ -106,13 +107,14 @@ class Smooth : public ForceTool {
     const Eigen::Matrix3Xd centres = touched.inside ? at_rest(document, touched) : touched.positions;
     for (std::size_t i = 0; i < touched.points.size(); ++i) {
       const auto c = static_cast<Eigen::Index>(i);
-      add_bump(touched, i, around, places, centres.col(c), normals,
+      add_bump(laid.tool.radius, touched, i, around, places, centres.col(c), normals,
                touched.inside ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(own.col(c)));
     }
   }
 
-  void add_bump(const Touched& touched, std::size_t i, const Touched& around, const Eigen::Matrix3Xd& places,
-                const Eigen::Vector3d& centre, const Eigen::Matrix3Xd& normals, const Eigen::Vector3d& normal) {
+  void add_bump(double radius, const Touched& touched, std::size_t i, const Touched& around,
+                const Eigen::Matrix3Xd& places, const Eigen::Vector3d& centre, const Eigen::Matrix3Xd& normals,
+                const Eigen::Vector3d& normal) {
     struct Near {
       double distance;
       std::size_t index;
@@ -128,7 +130,7 @@ class Smooth : public ForceTool {
     }
     std::sort(near.begin(), near.end());
     if (near.size() < 4) return;
-    const double reach = std::max(tool_.radius, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
+    const double reach = std::max(radius, 1.2 * near[std::min(near.size(), k_fewest) - 1].distance);
     std::size_t count = 0;
     while (count < near.size() && near[count].distance < reach) ++count;
 
@@ -183,7 +185,7 @@ class Smooth : public ForceTool {
 
   Tool tool_;
   GripOptions options_;
-  Eigen::Vector3d at_;
+  StrokePose held_;  // where it took hold
   double time_step_;
   std::vector<Bump> bumps_;
   fem::PointStencil middle_;

@@ -45,9 +45,10 @@ struct ToolKind {
 [[nodiscard]] std::unique_ptr<ForceTool> take_smooth(const Document& document, const Tool& tool,
                                                      const StrokePose& first, const GripOptions& options);
 
-/// A tool that follows the device takes new hold where it has moved this far from where it took hold [m].
-[[nodiscard]] inline double new_hold_distance(const Tool& tool) {
-  return tool.radius / 4;
+/// A tool that follows the device takes new hold where it has moved a quarter of its radius from where it took
+/// hold, or has another size by a tenth.
+[[nodiscard]] inline bool wants_new_hold(const Tool& tool, const StrokePose& held, const StrokePose& now) {
+  return (now.position - held.position).norm() > tool.radius / 4 * now.size || std::abs(now.size - held.size) > 0.1;
 }
 
 }  // namespace argil::sculpt

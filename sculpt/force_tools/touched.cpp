@@ -17,6 +17,8 @@ namespace argil::sculpt {
 
 namespace {
 
+constexpr double k_least_size = 1e-3;  // of a radius, which is never zero
+
 struct Triangles {
   Eigen::Matrix3Xd points;
   std::vector<std::array<std::uint32_t, 3>> corners;
@@ -308,6 +310,16 @@ Touched touch(const Document& document, const Tool& tool, const Eigen::Vector3d&
             "{:g} m; begin the stroke on the surface or make the radius larger",
             at.x(), at.y(), at.z(), away, tool.radius));
   return result;
+}
+
+LaidTool laid_tool(const Document& document, const Tool& tool, const StrokePose& device, bool inside) {
+  LaidTool laid{tool, device.position};
+  if (device.size >= 1) return laid;
+  laid.tool.radius *= std::max(device.size, k_least_size);
+  if (inside) return laid;
+  const Eigen::Vector3d nearest = nearest_on_surface(document, {&device.position, 1})[0];
+  if ((nearest - device.position).norm() <= tool.radius) laid.at = nearest;
+  return laid;
 }
 
 fem::PointStencil middle_of(const Touched& touched) {

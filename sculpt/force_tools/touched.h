@@ -9,6 +9,7 @@
 
 #include "fem/loads.h"
 #include "sculpt/document.h"
+#include "sculpt/stroke_pose.h"
 
 namespace argil::sculpt {
 
@@ -52,6 +53,14 @@ enum class Masks { protect, ignored };
                             Masks masks = Masks::protect);
 /// @throws Error (bad_input) that says what to do where all is masked.
 [[noreturn]] void refuse_masked();
+
+/// The tool as a device of less than full size lays it: with that share of its radius, and about the nearest point
+/// of the surface where it is the surface that the whole radius touches. At full size the tool where the device is.
+struct LaidTool {
+  Tool tool;
+  Eigen::Vector3d at;  // [m]
+};
+[[nodiscard]] LaidTool laid_tool(const Document& document, const Tool& tool, const StrokePose& device, bool inside);
 
 /// Of the surface, what is nearer than the tool's radius by a distance of one's own [m]. Empty if there is nothing.
 [[nodiscard]] Touched touched_near(const Document& document, const Tool& tool,

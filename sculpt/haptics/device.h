@@ -31,6 +31,7 @@ struct DeviceSample {
   std::uint32_t buttons = 0;  // bit i: button i is pressed
   Tick tick = 0;              // when the pose was true
   DeviceMode mode = DeviceMode::closed;
+  double pressure = 1;  // 0 … 1, of a pen; 1 where none is sensed
 };
 
 /// A force to apply until a tick; after it the device applies none, whatever else it hears or not.
@@ -46,6 +47,7 @@ struct DeviceCapabilities {
   double max_force = 0;      // [N], largest that it can apply; 0: felt by the eye only
   double max_stiffness = 0;  // [N/m], largest stable wall at its rate
   double rate = 1000;        // [1/s], exchanges that it can take
+  bool senses_pressure = false;
 };
 
 struct ContactModel;

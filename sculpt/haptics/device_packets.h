@@ -5,6 +5,7 @@
 //
 //   "ARGD" | version u16 | kind u16 | session u64 | sequence u64 | body
 //   sample (1): tick i64, mode u32, buttons u32, position 3 f64 [m], orientation x y z w f64, force 3 f64 [N]
+//               (no pressure: what comes by the network is pressed with 1)
 //   model  (2): tick of the sample that it answers i64, life u32 [ticks], planes u32, point 3 f64, force 3 f64,
 //               derivative 9 f64 by rows, then for each plane normal 3 f64, offset f64, stiffness f64
 

@@ -1,5 +1,6 @@
 #include "sculpt/haptics/mouse_device.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -27,6 +28,10 @@ void MouseDevice::push(double depth) {
     position_ += depth * view_;
 }
 
+void MouseDevice::set_pressure(double pressure) {
+  if (std::isfinite(pressure)) pressure_ = std::clamp(pressure, 0.0, 1.0);
+}
+
 void MouseDevice::meet() {
   const double along = ray_->direction.dot(view_), ahead = (through_ - ray_->origin).dot(view_);
   // Nearly along the plane the pointer's pixels would be metres apart.
@@ -38,6 +43,7 @@ DeviceCapabilities MouseDevice::capabilities() const {
   DeviceCapabilities capabilities;
   capabilities.workspace_low.setConstant(-1e9);
   capabilities.workspace_high.setConstant(1e9);
+  capabilities.senses_pressure = true;
   return capabilities;
 }
 
@@ -46,6 +52,7 @@ DeviceSample MouseDevice::exchange(const ForceCommand& command, Tick tick) {
   DeviceSample sample;
   sample.pose.position = position_;
   sample.buttons = buttons_;
+  sample.pressure = pressure_;
   sample.tick = tick;
   sample.mode = DeviceMode::idle;
   return sample;

@@ -1,7 +1,7 @@
 #pragma once
 // A mouse or pen as a device: the ray under the pointer meets a plane that faces the viewer and goes through what
-// was touched; the wheel moves that plane along the view. Force is drawn, not felt. The device's frame is the
-// world's.
+// was touched; the wheel moves that plane along the view. How hard a pen is pressed goes with the pose. Force is
+// drawn, not felt. The device's frame is the world's.
 
 #include <optional>
 
@@ -24,6 +24,8 @@ class MouseDevice : public Device {
   /// Away from the viewer by so much [m], on top of what there was.
   void push(double depth);
   void press(std::uint32_t buttons) { buttons_ = buttons; }
+  /// Of a pen; cut to 0 … 1. A number that is none leaves it as it was.
+  void set_pressure(double pressure);
 
   DeviceCapabilities capabilities() const override;
   DeviceSample exchange(const ForceCommand& command, Tick tick) override;
@@ -37,6 +39,7 @@ class MouseDevice : public Device {
   std::optional<PointerRay> ray_;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), shown_force_ = Eigen::Vector3d::Zero();
   std::uint32_t buttons_ = 0;
+  double pressure_ = 1;
 };
 
 }  // namespace argil::sculpt

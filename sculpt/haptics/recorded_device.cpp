@@ -25,6 +25,7 @@ DeviceSample RecordedDevice::exchange(const ForceCommand&, Tick tick) {
   const DeviceRecorder::Entry& entry = *(after - 1);
   if (after == entries_.end() && tick > entry.asked) {
     closed.pose = entry.sample.pose;
+    closed.pressure = entry.sample.pressure;
     return closed;
   }
   return entry.sample;

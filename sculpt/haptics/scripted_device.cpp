@@ -8,13 +8,18 @@ namespace argil::sculpt {
 
 namespace {
 
-DevicePose between(const PoseSegment& segment, Tick since) {
-  if (since <= 0 && segment.ticks > 0) return segment.from;
-  if (since >= segment.ticks) return segment.to;
+void set_between(const PoseSegment& segment, Tick since, DeviceSample& sample) {
+  const bool first = since <= 0 && segment.ticks > 0;
+  if (first || since >= segment.ticks) {
+    sample.pose = first ? segment.from : segment.to;
+    sample.pressure = first ? segment.from_pressure : segment.to_pressure;
+    return;
+  }
   double s = static_cast<double>(since) / static_cast<double>(segment.ticks);
   if (segment.ease == Ease::smooth) s = s * s * (3 - 2 * s);
-  return {(1 - s) * segment.from.position + s * segment.to.position,
-          segment.from.orientation.slerp(s, segment.to.orientation)};
+  sample.pose = {(1 - s) * segment.from.position + s * segment.to.position,
+                 segment.from.orientation.slerp(s, segment.to.orientation)};
+  sample.pressure = (1 - s) * segment.from_pressure + s * segment.to_pressure;
 }
 
 }  // namespace
@@ -47,7 +52,7 @@ DeviceSample ScriptedDevice::sample(Tick tick) const {
   const std::size_t i = std::min(static_cast<std::size_t>(next - ends_.begin()), segments_.size() - 1);
   const PoseSegment& segment = segments_[i];
   DeviceSample sample;
-  sample.pose = between(segment, tick - (ends_[i] - segment.ticks));
+  set_between(segment, tick - (ends_[i] - segment.ticks), sample);
   sample.buttons = tick < start_ || tick > end() ? 0 : segment.buttons;
   sample.tick = tick;
   sample.mode = DeviceMode::idle;

@@ -17,7 +17,8 @@ struct PoseSegment {
   DevicePose from, to;
   Tick ticks = 0;  // ≥ 0; 0 jumps to `to`
   Ease ease = Ease::linear;
-  std::uint32_t buttons = 1;  // pressed along the segment, both ends included
+  std::uint32_t buttons = 1;                  // pressed along the segment, both ends included
+  double from_pressure = 1, to_pressure = 1;  // of a pen, 0 … 1; it changes as the way does
 };
 
 class ScriptedDevice : public Device {

@@ -114,6 +114,56 @@ TEST(Stroke, ADeviceThatLosesItselfStays) {
   EXPECT_EQ(lost.hash(), still.hash());
 }
 
+TEST(Stroke, PressureMayScaleTheRadiusAndReplays) {
+  for (const char* tool : {"inflate", "pinch", "smooth", "pull", "paint_stiffness scale 3", "pin_brush"}) {
+    SCOPED_TRACE(tool);
+    const auto lines = [&] {
+      auto all = block("1/60");
+      all.push_back("tool " + std::string(tool) + " radius 0.12 symmetry x");
+      return all;
+    }();
+    const auto draw = [&](TestSession& session, bool radius) {
+      StrokeOptions options;
+      options.scales_radius = radius;
+      Stroke stroke(session.session(), wandering(0), options);
+      for (int tick = 1; tick <= 90; ++tick) stroke.tick(wandering(tick));
+      return stroke.finish();
+    };
+    TestSession live(lines), strength(lines), replayed(lines);
+    const std::string line = draw(live, true);
+    EXPECT_THAT(line, HasSubstr(" scales radius"));
+    replayed.run({line});
+    EXPECT_EQ(replayed.hash(), live.hash());
+    draw(strength, false);
+    if (std::string(tool) != "pin_brush") {  // which has no strength, and here pins the same points
+      EXPECT_NE(strength.hash(), live.hash());
+    }
+  }
+}
+
+TEST(Stroke, FullPressureIsAsNone) {
+  for (const char* tool : {"pull", "inflate", "paint_mass scale 3"}) {
+    auto lines = block("1/60");
+    lines.push_back("tool " + std::string(tool));
+    lines.push_back("stroke path 0 0.15 0.15 0.2 90 0.15 0.17 0.22");
+    TestSession none(lines);
+    lines.back() += " pressures 1 1";
+    TestSession full(lines);
+    lines.back() += " scales radius";
+    TestSession radius(lines);
+    EXPECT_EQ(full.hash(), none.hash());
+    EXPECT_EQ(radius.hash(), none.hash());
+  }
+}
+
+TEST(Stroke, PressuresOutOfRangeAreCut) {
+  TestSession session(block("0.02"));
+  const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
+  Stroke stroke(session.session(), {{0.15, 0.15, 0.18}, straight, 1e9});
+  for (int tick = 1; tick <= 45; ++tick) stroke.tick({{0.15, 0.15, 0.18}, straight, tick < 30 ? -1 : std::nan("")});
+  EXPECT_THAT(stroke.finish(), HasSubstr(" pressures 1 0 0 0"));
+}
+
 TEST(Stroke, PathsThatAreNoneAreRefused) {
   TestSession session(block("1/60"));
   const std::uint64_t before = session.hash();

@@ -45,12 +45,13 @@ class DrawingDevice : public sculpt::Device {
     const double share = std::clamp((static_cast<double>(ticks_) - 100) / 200, 0.0, 1.0);
     sample.pose.position = from_ + share * by_;
     sample.buttons = ticks_ > 60 && ticks_ < 320 ? 1U : 0U;
+    sample.pressure = pressure_;
     sample.tick = tick;
     sample.mode = silent_ ? sculpt::DeviceMode::closed : sculpt::DeviceMode::force;
     return sample;
   }
 
-  double largest_ = 0, along_ = 0;
+  double largest_ = 0, along_ = 0, pressure_ = 1;
   bool silent_ = false;
 
  private:
@@ -86,6 +87,28 @@ TEST(StudioHand, AStrokeOfADeviceIsALineThatReplays) {
   sculpt::Session session(replay);
   session.run_text(io::read_file(window.workshop().bench().session().journal_path()), "journal");
   EXPECT_EQ(session.document().state_hash(), made);
+}
+
+TEST(StudioHand, ThePressureOfADeviceCountsAsThatOfAPen) {
+  const auto line = [](const char* name, PenScales scales) {
+    Offscreen window(options(name));
+    window.studio().desk().settings.pen = scales;
+    window.wait(2);
+    const Snapshot& now = window.now();
+    const double top = 0.5 * (now.high.z() - now.low.z()) * 0.2 / (1.5 * (now.high - now.low).norm());
+    const auto device = std::make_shared<DrawingDevice>(Eigen::Vector3d(0, 0, top), Eigen::Vector3d(0, 0, 0.02));
+    device->pressure_ = 0.5;
+    window.workshop().use_device("drawing", device);
+    window.wait(40);
+    const std::string journal = io::read_file(window.workshop().bench().session().journal_path());
+    const std::size_t begin = journal.rfind("\nstroke path");
+    return begin == journal.npos ? "" : journal.substr(begin + 1, journal.find('\n', begin + 1) - begin - 1);
+  };
+  EXPECT_NE(line("pressed", PenScales::strength).find(" pressures 0.5 0.5"), std::string::npos);
+  EXPECT_NE(line("sized", PenScales::radius).find("0.5 scales radius"), std::string::npos);
+  const std::string off = line("unpressed", PenScales::nothing);
+  EXPECT_FALSE(off.empty());
+  EXPECT_EQ(off.find("pressures"), std::string::npos);
 }
 
 TEST(StudioHand, AStrokeOfTheMouseIsItsOwn) {

@@ -19,6 +19,7 @@ namespace {
 
 std::string axes_of(const sculpt::DeviceCapabilities& can) {
   std::string text = fmt::format("senses {} axes", can.sensed_axes);
+  if (can.senses_pressure) text += " and pressure, 0 to 1";
   if (can.actuated_axes > 0)
     text += fmt::format(", {} with force up to {:.3g} N", can.actuated_axes, can.max_force);
   if (can.max_stiffness > 0) text += fmt::format(", walls up to {:.3g} N/m", can.max_stiffness);
@@ -35,6 +36,7 @@ void print_table(bool json) {
                       {"present", entry.present},
                       {"state", entry.state},
                       {"sensed_axes", entry.capabilities.sensed_axes},
+                      {"senses_pressure", entry.capabilities.senses_pressure},
                       {"actuated_axes", entry.capabilities.actuated_axes},
                       {"max_force_N", entry.capabilities.max_force},
                       {"max_stiffness_N_per_m", entry.capabilities.max_stiffness},

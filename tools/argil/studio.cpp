@@ -7,6 +7,7 @@
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
 #include "tools/devices/device_table.h"
+#include "tools/devices/pen.h"
 #include "tools/studio/script.h"
 #include "tools/studio/window.h"
 #include "tools/view/film.h"
@@ -33,7 +34,8 @@ argil::studio::DeviceShop device_shop() {
   shop.list = [] {
     std::vector<argil::studio::DeviceChoice> choices;
     for (const devices::DeviceEntry& entry : devices::list_devices())
-      if (entry.name != "scripted") choices.push_back({entry.name, entry.summary, entry.state, entry.present});
+      if (entry.name != "scripted")
+        choices.push_back({entry.name, entry.summary, entry.state, entry.present, entry.opens});
     return choices;
   };
   shop.open = [](const std::string& name) {
@@ -41,6 +43,16 @@ argil::studio::DeviceShop device_shop() {
     return std::shared_ptr<sculpt::Device>(owned, &owned->device());
   };
   return shop;
+}
+
+std::function<void(argil::studio::Input&)> pen_input(devices::PenReader* pens) {
+  if (pens == nullptr) return nullptr;
+  return [pens](argil::studio::Input& input) {
+    const devices::PenState pen = pens->state();
+    input.has_pen = pen.plugged;
+    input.pressure = pen.pressure;
+    input.eraser = pen.eraser;
+  };
 }
 
 std::string make_film(const std::filesystem::path& session, const std::filesystem::path& read_root,
@@ -81,7 +93,8 @@ int studio(const StudioArguments& arguments) {
   bench.film = make_film;
   if (arguments.script.empty()) {
     bench.settings = settings_folder();
-    argil::studio::run_window({bench, device_shop(), arguments.device, arguments.file});
+    const std::unique_ptr<devices::PenReader> pens = devices::open_pens();
+    argil::studio::run_window({bench, device_shop(), arguments.device, arguments.file, pen_input(pens.get())});
     return k_well;
   }
   const std::string script = io::read_file(arguments.script);

@@ -17,6 +17,7 @@
 #include "sculpt/haptics/simulated_hand.h"
 #include "subdiv/error.h"
 #include "tools/devices/gamepad.h"
+#include "tools/devices/pen.h"
 #include "tools/devices/space_mouse.h"
 
 namespace argil::devices {
@@ -133,8 +134,14 @@ double part(std::vector<double>& times, double share) {
 
 std::vector<DeviceEntry> list_devices() {
   std::vector<DeviceEntry> entries;
-  entries.push_back({"mouse", "a mouse or pen: a ray and the wheel; force is drawn", true, "always there",
-                     sculpt::MouseDevice().capabilities()});
+  const sculpt::DeviceCapabilities pen = sculpt::MouseDevice().capabilities();
+  sculpt::DeviceCapabilities mouse = pen;
+  mouse.senses_pressure = false;
+  entries.push_back(
+      {"mouse", "the ray under the pointer and the wheel; force is drawn", true, "always there", mouse});
+  const PensFound pens = find_pens();
+  entries.push_back({"pen", "as the mouse; its pressure scales the brush, its eraser inverts", pens.present,
+                     pens.state, pen, false});
   entries.push_back(
       {"scripted", "follows the path of a session's stroke", true, "always there", pressing().capabilities()});
   entries.push_back({"hand", "a simulated hand on a path, which feels the force", true, "always there",
@@ -145,7 +152,7 @@ std::vector<DeviceEntry> list_devices() {
   entries.push_back({"network", "a device beside its own servo, by UDP", true,
                      "`argil devices --serve NAME` on the machine that has the device; then "
                      "`argil studio --device \"network ADDRESS:PORT\"`",
-                     sculpt::NetworkDevice(network.end(0), 0).capabilities()});
+                     sculpt::NetworkDevice(network.end(0), 0).capabilities(), false});
   return entries;
 }
 
@@ -154,6 +161,9 @@ std::unique_ptr<OwnedDevice> open_device(const std::string& name) {
   if (name == "gamepad") return std::make_unique<OwnedRates>(open_gamepad());
   if (name.starts_with("network ")) return std::make_unique<OwnedNetwork>(address_of(name.substr(8)));
   if (name == "space_mouse") return std::make_unique<OwnedRates>(open_space_mouse());
+  if (name == "pen")
+    throw Error(ErrorCode::not_found,
+                "a pen is no device of its own: where there is one it goes with the mouse; leave --device out");
   throw Error(ErrorCode::not_found, fmt::format("expected hand, gamepad, space_mouse or `network ADDRESS:PORT`, "
                                                 "found \"{}\"; `argil devices` lists what is there",
                                                 name));

@@ -15,6 +15,7 @@ struct DeviceEntry {
   bool present = false;
   std::string state{};  // what was found, or what is missing and how to get it
   sculpt::DeviceCapabilities capabilities{};
+  bool opens = true;  // by its name alone; a pen goes with the mouse, and a device by UDP has an address
 };
 
 /// All kinds, the mouse first. Asks the drivers; takes some milliseconds, and as long as they take to answer.

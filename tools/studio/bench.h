@@ -69,6 +69,7 @@ class Bench {
   void list(const std::string& typed);
   void look_for_samples();
   void write_keys(const std::string& lines);
+  void write_settings(const std::string& lines);
 
   /// The tool becomes the document's if it is not; that and the stroke are undone together.
   void begin_stroke(const StrokeStart& start);
@@ -105,6 +106,7 @@ class Bench {
   std::function<bool(double share, const std::string& what)> on_progress;
 
  private:
+  void keep(const std::string& file, const std::string& lines);
   void begin_session(const std::filesystem::path& read_root);
   void run_all(const std::vector<io::SessionLine>& lines);
   void mark_saved(const std::filesystem::path& file);

@@ -130,10 +130,18 @@ void Bench::look_for_samples() {
 }
 
 void Bench::write_keys(const std::string& lines) {
+  keep("keys", lines);
+}
+
+void Bench::write_settings(const std::string& lines) {
+  keep("window", lines);
+}
+
+void Bench::keep(const std::string& file, const std::string& lines) {
   if (options_.settings.empty()) return;
   try {
     std::filesystem::create_directories(options_.settings);
-    io::write_file(options_.settings / "keys", lines);
+    io::write_file(options_.settings / file, lines);
   } catch (const Error& error) {
     say(MessageKind::error, error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -40,6 +40,9 @@ struct ShelfTool {
 enum class Panel { tool, material, physics, fields, history };
 inline constexpr std::array<const char*, 5> k_panel_names{"Tool", "Material", "Physics", "Fields", "History"};
 
+/// What the pressure of a pen scales.
+enum class PenScales { strength, radius, nothing };
+
 struct Settings {
   std::size_t tool = 0;  // of the shelf
   bool keep_shape = true, wireframe = true, finest_wires = false, cage = false, light = false, panels = true;
@@ -51,6 +54,7 @@ struct Settings {
   bool fixed_range = false;
   double range_low = 0, range_high = 1;
   Panel panel = Panel::tool;
+  PenScales pen = PenScales::strength;  // kept from one window to the next
 };
 
 /// What lies under the brush.
@@ -98,6 +102,7 @@ struct Desk {
   float panel_height = 0;     // that the panel wants
   bool card = true;           // of the first minute
   bool quits = false, takes_picture = false;
+  bool has_pen = false;
   std::filesystem::path folder = ".";  // where files are opened and saved
   double frame_ms = 0, frames_a_second = 0;
   std::vector<float> force_plot, energy_plot;  // [N], [J]; the latest last

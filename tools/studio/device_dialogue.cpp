@@ -40,7 +40,7 @@ void draw_devices(Desk& desk, int width, int height) {
     draw.PopClipRect();
     ui.note_control(ControlKind::reading, "About " + choice.name, choice.summary + ": " + choice.state, "",
                     {left, y, room, row});
-    if (choice.present && !is_used && choice.name != "network" &&
+    if (choice.present && !is_used && choice.opens &&
         ui.text_button(("Use " + choice.name).c_str(),
                        {place.right() - ui.px(112), y + ui.px(6), ui.px(92), ui.px(30)}, "Use", false,
                        "Sculpts with it: " + choice.summary)) {
@@ -91,12 +91,15 @@ void lay_brush_ready(Desk& desk, const OrbitCamera& camera) {
   ReadyBrush brush;
   brush.tool = desk.brush;
   brush.keep = desk.settings.keep_shape && desk.tool().kind == ToolKind::force;
+  brush.pressed = desk.settings.pen != PenScales::nothing;
+  brush.scales_radius = desk.settings.pen == PenScales::radius;
   brush.middle = 0.5 * (desk.now->low + desk.now->high);
   brush.radius = 0.75 * (desk.now->high - desk.now->low).norm();
   brush.view = -camera.towards_eye();
   // The solid moves in every step; the workspace follows where it matters.
   const ReadyBrush& last = desk.ready;
   const bool same = tool_line(last.tool, brush.tool).empty() && last.keep == brush.keep &&
+                    last.pressed == brush.pressed && last.scales_radius == brush.scales_radius &&
                     (last.view - brush.view).norm() < 1e-3 &&
                     (last.middle - brush.middle).norm() < 0.05 * brush.radius &&
                     std::abs(last.radius - brush.radius) < 0.1 * brush.radius;

@@ -42,6 +42,7 @@ void Hand::serve(sculpt::Tick now) {
   HandSample sample;
   sample.pose.position = mapping_.position(ticked.sample.pose.position);
   sample.pose.orientation = mapping_.rotation * ticked.sample.pose.orientation;
+  sample.pressure = ticked.sample.pressure;
   sample.buttons = ticked.sample.buttons;
   sample.mode = ticked.sample.mode;
   sample.now = now;

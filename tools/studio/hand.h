@@ -17,6 +17,7 @@ namespace argil::studio {
 struct DeviceChoice {
   std::string name, summary, state;  // `state`: what was found, or how to get it
   bool present = false;
+  bool opens = true;  // by its name alone
 };
 struct DeviceShop {
   std::function<std::vector<DeviceChoice>()> list;
@@ -27,6 +28,7 @@ struct DeviceShop {
 /// In world coordinates.
 struct HandSample {
   sculpt::DevicePose pose;
+  double pressure = 1;
   std::uint32_t buttons = 0;
   sculpt::DeviceMode mode = sculpt::DeviceMode::closed;
   sculpt::Tick now = 0;                             // of the servo

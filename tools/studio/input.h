@@ -19,7 +19,9 @@ struct Input {
   float x = -1, y = -1;            // of the pointer, from the top left
   bool buttons[3] = {};            // left, right, middle
   float wheel = 0;
-  double pressure = 1;  // of a pen
+  // Of a pen, if there is one: 0 … 1, and 1 while the mouse moves the pointer; whether its other end is down.
+  bool has_pen = false, eraser = false;
+  double pressure = 1;
   std::vector<KeyEvent> keys;
   std::vector<std::uint32_t> characters;
   std::vector<std::filesystem::path> dropped;

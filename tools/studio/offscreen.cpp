@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "subdiv/error.h"
+#include "tools/studio/settings_file.h"
 
 namespace argil::studio {
 
@@ -34,7 +35,11 @@ void Offscreen::resize(int width, int height, float scale) {
   if (anew)
     studio_ = std::make_unique<Studio>(
         context_.gl(), *workshop_,
-        StudioOptions{.scale = scale, .virtual_clock = true, .card = options_.card, .keys = {}});
+        StudioOptions{.scale = scale,
+                      .virtual_clock = true,
+                      .card = options_.card,
+                      .keys = {},
+                      .settings = studio_ ? settings_lines(studio_->desk().settings) : std::string()});
 }
 
 void Offscreen::frame() {
@@ -58,6 +63,13 @@ void Offscreen::move(double x, double y) {
 
 void Offscreen::button(int which, bool down) {
   input_.buttons[which] = down;
+  frame();
+}
+
+void Offscreen::pen(double pressure, bool eraser) {
+  input_.has_pen = true;
+  input_.pressure = std::clamp(pressure, 0.0, 1.0);
+  input_.eraser = eraser;
   frame();
 }
 

@@ -32,6 +32,8 @@ class Offscreen {
   void wait(int frames = 1);
   void move(double x, double y);
   void button(int which, bool down);  // 0 left, 1 right, 2 middle
+  /// A pen pressed so hard, 0 … 1, or by its other end; what moves the pointer then is the pen. 1: as a mouse.
+  void pen(double pressure, bool eraser = false);
   void wheel(double notches);
   void key(int key, bool down);
   /// All within one frame.

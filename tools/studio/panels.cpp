@@ -10,6 +10,7 @@
 #include "tools/studio/plots.h"
 #include "tools/studio/quantity.h"
 #include "tools/studio/select_mode.h"
+#include "tools/studio/settings_file.h"
 
 namespace argil::studio {
 
@@ -36,6 +37,18 @@ double rounded(double value) {
 
 std::size_t index_of(const std::vector<std::string>& words, const std::string& word) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+void pen_row(Desk& desk) {
+  static const std::vector<std::string> words(k_pen_words.begin(), k_pen_words.end());
+  auto pen = static_cast<std::size_t>(desk.settings.pen);
+  if (!desk.ui->choice_row(
+          "Pen", words, pen,
+          "What its pressure scales: the strength, or the radius of brushes that go over the clay. "
+          "Its eraser inverts. Off: as a mouse"))
+    return;
+  desk.settings.pen = static_cast<PenScales>(pen);
+  desk.workshop->post([lines = settings_lines(desk.settings)](Bench& bench) { bench.write_settings(lines); });
 }
 
 void tool_panel(Desk& desk, float x, float width) {
@@ -96,6 +109,7 @@ void tool_panel(Desk& desk, float x, float width) {
             "Symmetry", axes, axis,
             "Its mirror image along this axis acts as well  ·  " + desk.bindings.word_of(Action::symmetry)))
       brush.symmetry = axis == 0 ? '\0' : axes[axis].front();
+    if (desk.has_pen && tool.kind != ToolKind::probe) pen_row(desk);
     if (tool.kind == ToolKind::force || tool.kind == ToolKind::curve)
       ui.toggle_row("Keep the shape", desk.settings.keep_shape, desk.tooltip(Action::keep_shape));
   }

@@ -85,6 +85,12 @@ void run_line(const Line& line, Offscreen& window, const std::filesystem::path& 
     const int which = line.words.size() > 5 ? button_of(line, 5, k_usage) : 0;
     window.drag(at(0, k_usage), at(1, k_usage), at(2, k_usage), at(3, k_usage), static_cast<int>(at(4, k_usage)),
                 which);
+  } else if (name == "pen") {
+    static constexpr const char* k_usage = "pen PRESSURE [eraser]` with a pressure from 0 to 1, or `pen off";
+    const bool off = line.rest == "off", eraser = line.words.size() == 2 && line.words[1] == "eraser";
+    const double pressure = off ? 1 : at(0, k_usage);
+    if (!(pressure >= 0 && pressure <= 1) || line.words.size() > (eraser ? 2U : 1U)) wants(line, k_usage);
+    window.pen(pressure, eraser);
   } else if (name == "wheel") {
     window.wheel(at(0, "wheel NOTCHES"));
   } else if (name == "key") {
@@ -130,9 +136,10 @@ void run_line(const Line& line, Offscreen& window, const std::filesystem::path& 
   } else {
     throw Error(
         ErrorCode::bad_input,
-        fmt::format("'{}' is not something a hand does; there are move, press, release, click, drag, wheel, key, "
-                    "hold, let, type, wait, size, picture, print, expect",
-                    name));
+        fmt::format(
+            "'{}' is not something a hand does; there are move, press, release, click, drag, pen, wheel, key, "
+            "hold, let, type, wait, size, picture, print, expect",
+            name));
   }
 }
 

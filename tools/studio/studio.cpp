@@ -12,6 +12,7 @@
 #include "tools/studio/key_editor.h"
 #include "tools/studio/panels.h"
 #include "tools/studio/plots.h"
+#include "tools/studio/settings_file.h"
 #include "tools/studio/ui_renderer.h"
 #include "tools/studio/work_notes.h"
 
@@ -65,6 +66,7 @@ Studio::Studio(const view::Gl& gl, Workshop& workshop, const StudioOptions& opti
   desk_.virtual_clock = options.virtual_clock;
   desk_.card = options.card;
   desk_.bindings.read(options.keys, "keys");
+  read_settings(desk_.settings, options.settings, "window");
   desk_.now = workshop_->latest();
 }
 
@@ -165,6 +167,7 @@ void Studio::frame(const Input& input) {
   ImGui::SetCurrentContext(context_);
   desk_.now = workshop_->latest();
   desk_.follow_solid();
+  desk_.has_pen = input.has_pen;
   desk_.time += input.seconds;
   desk_.frame_ms += 0.1 * (1e3 * input.seconds - desk_.frame_ms);
   desk_.frames_a_second = desk_.frame_ms > 0 ? 1e3 / desk_.frame_ms : 0;

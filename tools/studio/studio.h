@@ -20,7 +20,8 @@ struct StudioOptions {
   float scale = 1;
   bool virtual_clock = false;
   bool card = true;
-  std::string keys;  // of the sculptor; lines as in Bindings::read
+  std::string keys;      // of the sculptor; lines as in Bindings::read
+  std::string settings;  // lines as in settings_file.h
 };
 
 class Studio {

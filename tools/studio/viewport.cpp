@@ -10,6 +10,18 @@
 
 namespace argil::studio {
 
+namespace {
+
+// A curve's handle holds on, and has no radius to scale; the probe only feels.
+double acting_pressure(const Desk& desk, const Input& input, bool of_handle) {
+  const PenScales scales = desk.settings.pen;
+  const bool none = scales == PenScales::nothing || desk.tool().kind == ToolKind::probe ||
+                    (of_handle && scales == PenScales::radius);
+  return none ? 1 : input.pressure;
+}
+
+}  // namespace
+
 Viewport::Viewport(const view::Gl& gl) : gl_(&gl), painter_(gl), overlay_(gl) {}
 
 Box Viewport::box_of(const Snapshot& now) const {
@@ -142,7 +154,7 @@ bool Viewport::press_on_curve(Desk& desk, const Input& input) {
   handle_ = *handle;
   take_hold(desk.now->curve->handles[handle_]);
   desk.force_plot.clear();
-  desk.workshop->begin_stroke(handle_stroke(desk, handle_, input.pressure));
+  desk.workshop->begin_stroke(handle_stroke(desk, handle_, acting_pressure(desk, input, true)));
   return true;
 }
 
@@ -164,11 +176,12 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
       desk.force_plot.clear();
       StrokeStart start;
       start.pose.position = hover_->at;
-      start.pose.pressure = input.pressure;
+      start.pose.pressure = acting_pressure(desk, input, false);
       start.tool = desk.brush;
       start.options.invert = control;
       start.options.smoothing = shift && desk.tool().kind == ToolKind::force;
       start.options.inside = hover_->cut;
+      start.options.scales_radius = desk.settings.pen == PenScales::radius;
       desk.workshop->begin_stroke(start);
       break;
     }
@@ -177,15 +190,17 @@ void Viewport::press(Desk& desk, const Input& input, bool control, bool shift) {
 
 // A force tool goes with the pointer through space, by the plane through where it took hold; a brush that lays
 // something on the clay goes over its surface.
-void Viewport::move_device(Desk& desk, double pressure) {
+void Viewport::move_device(Desk& desk, const Input& input) {
   const Ray ray = camera_.ray(x_, y_);
   mouse_.point({ray.origin, ray.direction});
-  device_ = mouse_.exchange({}, 0).pose.position;
+  mouse_.set_pressure(acting_pressure(desk, input, drag_ == Drag::handle));
+  const sculpt::DeviceSample sample = mouse_.exchange({}, 0);
+  device_ = sample.pose.position;
   if (drag_ == Drag::stroke && desk.tool().kind != ToolKind::force && desk.now->scene)
     if (const auto hit = pick(desk.now->scene->surface, ray)) device_ = hit->at;
   sculpt::StrokePose pose;
   pose.position = device_;
-  pose.pressure = pressure;
+  pose.pressure = sample.pressure;
   desk.workshop->move_device(pose);
 }
 
@@ -210,7 +225,7 @@ void Viewport::drag(Desk& desk, const Input& input, bool shift) {
       break;
     case Drag::stroke:
     case Drag::handle:
-      move_device(desk, input.pressure);
+      move_device(desk, input);
       break;
     case Drag::choose:
       break;
@@ -282,7 +297,9 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
   last_y_ = y_;
   x_ = input.x;
   y_ = input.y;
-  inverts_ = control;
+  const bool erases = input.eraser && desk.settings.pen != PenScales::nothing;
+  const bool pressed_anew = input.pressure != std::exchange(pressure_, input.pressure);
+  inverts_ = control || erases;
   if (desk.now->scene && desk.now->solid_number != framed_solid_) {
     camera_.frame(box_of(*desk.now));
     camera_.arrive();
@@ -320,10 +337,12 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
         std::hypot(x_ - right_x_, y_ - right_y_) < desk.ui->px(5))
       desk.wants_context_menu = true;
     if (x_ != last_x_ || y_ != last_y_) select_.follow(desk, camera_, x_, y_, shift);
-    if (pressed_left) press(desk, input, control, shift);
+    if (pressed_left) press(desk, input, control || erases, shift);
     if (pressed_middle) drag_ = shift ? Drag::pan : Drag::orbit;
   } else if (drag_ != Drag::none && (x_ != last_x_ || y_ != last_y_)) {
     drag(desk, input, shift);
+  } else if (pressed_anew && (drag_ == Drag::stroke || drag_ == Drag::handle)) {
+    move_device(desk, input);
   }
   if (drag_ != Drag::none && !sizes &&
       (released_left || (released_middle && (drag_ == Drag::orbit || drag_ == Drag::pan))))
@@ -333,7 +352,7 @@ void Viewport::handle(Desk& desk, const Input& input, bool control, bool shift, 
     if (select_.wheel(desk, input.wheel)) {
     } else if (drag_ == Drag::stroke || drag_ == Drag::handle) {
       mouse_.push(-12 * input.wheel * camera_.pixel_size(grip_));
-      move_device(desk, input.pressure);
+      move_device(desk, input);
     } else if (desk.settings.peel > 0 && !control) {
       desk.settings.peel =
           std::clamp(desk.settings.peel + (input.wheel > 0 ? 1 : -1), 1, std::max(1, desk.now->layers));

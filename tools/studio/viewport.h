@@ -51,7 +51,7 @@ class Viewport {
   void drag(Desk& desk, const Input& input, bool shift);
   void release(Desk& desk);
   void cancel(Desk& desk);
-  void move_device(Desk& desk, double pressure);
+  void move_device(Desk& desk, const Input& input);
   void move_plane(Desk& desk, double distance);
   void update_hover(Desk& desk, bool over_ui);
   void take_hold(const Eigen::Vector3d& at);
@@ -82,6 +82,7 @@ class Viewport {
   double x_ = 0, y_ = 0, last_x_ = 0, last_y_ = 0, pressed_x_ = 0, pressed_y_ = 0;
   bool left_ = false, middle_ = false, right_ = false;
   bool inverts_ = false;
+  double pressure_ = 1;  // of the pen, in the last frame
   // A stroke.
   Eigen::Vector3d grip_ = Eigen::Vector3d::Zero(), device_ = grip_;
   sculpt::MouseDevice mouse_;

@@ -116,10 +116,15 @@ void run_window(const WindowOptions& options) {
   Input input;
   input.scale = std::max(0.75F, std::round(4 * scale_x) / 4);
   std::error_code failure;
-  StudioOptions studio_options{.scale = input.scale, .virtual_clock = false, .card = true, .keys = {}};
-  const std::filesystem::path keys = options.bench.settings / "keys";
-  if (!options.bench.settings.empty() && std::filesystem::is_regular_file(keys, failure))
-    studio_options.keys = io::read_file(keys);
+  StudioOptions studio_options{
+      .scale = input.scale, .virtual_clock = false, .card = true, .keys = {}, .settings = {}};
+  const auto kept = [&](const char* name) {
+    const std::filesystem::path file = options.bench.settings / name;
+    const bool there = !options.bench.settings.empty() && std::filesystem::is_regular_file(file, failure);
+    return there ? io::read_file(file) : std::string();
+  };
+  studio_options.keys = kept("keys");
+  studio_options.settings = kept("window");
   Studio studio(gl, workshop, studio_options);
   glfwSetWindowUserPointer(window.get(), &input);
   listen(window.get());
@@ -129,6 +134,7 @@ void run_window(const WindowOptions& options) {
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !studio.quits()) {
     glfwPollEvents();
     read_pointer(window.get(), input);
+    if (options.read_pen) options.read_pen(input);
     const Clock::time_point now = Clock::now();
     input.seconds = std::clamp(std::chrono::duration<double>(now - last).count(), 1e-4, 0.25);
     last = now;

@@ -17,7 +17,8 @@ namespace argil::studio {
 /// What a stroke of a device begins with where it begins: the brush that lies ready.
 struct ReadyBrush {
   sculpt::Tool tool;
-  bool keep = true;  // the shape, at the end of the stroke
+  bool keep = true;                            // the shape, at the end of the stroke
+  bool pressed = true, scales_radius = false;  // whether pressure counts, and what it scales (sculpt/stroke.h)
   // Where its workspace lies: over this ball, seen along `view` from the eye.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(), view = Eigen::Vector3d::UnitY();
   double radius = 1;  // [m]

@@ -89,12 +89,14 @@ void Workshop::follow_hand() {
   if (is_well(sample->mode)) {
     hand_pose_.position = sample->pose.position;
     hand_pose_.orientation = sample->pose.orientation;
+    hand_pose_.pressure = ready_.pressed ? sample->pressure : 1;
   }
   // While the mouse draws, the device waits, and feels obstacles only.
   if (pressed && !hand_pressed_ && is_ready_ && !bench_.is_stroking()) {
     StrokeStart start;
     start.pose = hand_pose_;
     start.tool = ready_.tool;
+    start.options.scales_radius = ready_.scales_radius;
     tick_rest_ = 0;
     bench_.begin_stroke(start);
     hand_strokes_ = bench_.is_stroking();

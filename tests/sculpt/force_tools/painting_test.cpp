@@ -96,6 +96,34 @@ TEST(PaintStroke, TheMaskProtectsAndPressureSharesOut) {
     }
 }
 
+TEST(PaintStroke, PressureRisesAlongTheWay) {
+  Eigen::Matrix3Xd nodes;
+  const auto painted = [&](const std::string& scales) {
+    TestSession session(block());
+    nodes = subdiv::apply(session.document().refinement().stencils.back(), session.document().positions());
+    session.run({"tool paint_stiffness value 5e5 radius 0.1 falloff constant",
+                 "stroke path 0 0 0.15 0.2 1 0.3 0.15 0.2 pressures 0 1" + scales});
+    return field(session, FieldName::young_modulus);
+  };
+  const Eigen::VectorXd strength = painted(""), radius = painted(" scales radius");
+  int touched = 0, within = 0;
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+    // A constant brush leaves what it was pressed with where its middle came nearest.
+    const double share = std::clamp(nodes(0, i) / 0.3, 0.0, 1.0);
+    const double away = (nodes.col(i) - Eigen::Vector3d(0.3 * share, 0.15, 0.2)).norm();
+    EXPECT_NEAR(strength[i], 1e5 + (away < 0.1 ? 4e5 * share : 0), 1e-5);
+    touched += away < 0.1;
+    // One that grows paints a cone: all that any of its balls holds, here tried one after another.
+    double least = 1e9;
+    for (int k = 1; k <= 3000; ++k)
+      least = std::min(least, (nodes.col(i) - Eigen::Vector3d(k * 1e-4, 0.15, 0.2)).norm() / (k / 3000.0));
+    EXPECT_NEAR(radius[i], least < 0.1 ? 5e5 : 1e5, 1e-5) << least;
+    within += least < 0.1;
+  }
+  EXPECT_GT(within, 3);
+  EXPECT_GT(touched, within);
+}
+
 TEST(PaintStroke, InvertedItTakesBack) {
   TestSession session(block());
   session.run({"tool paint_stiffness scale 3 radius 0.1", "stroke path 0 0.15 0.15 0.2",

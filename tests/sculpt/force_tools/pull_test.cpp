@@ -24,6 +24,32 @@ std::vector<std::string> block(const std::string& space) {
 class Pull : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Pull, testing::Values("default", "cubic"));
 
+TEST_P(Pull, HalfThePressureIsHalfTheForce) {
+  TestSession session(block(GetParam()));
+  const Eigen::Matrix3Xd& p = session.document().positions();
+  Tool tool;
+  tool.radius = 0.09;
+  tool.strength = 50;
+  const Eigen::Vector3d at(0.15, 0.15, 0.2);
+  const PullGrip grip(session.document(), tool, at);
+  for (const double pressure : {1.0, 0.5, 0.1, 0.0}) {
+    StrokePose pose{at + Eigen::Vector3d(0.02, -0.01, 0.05)};
+    pose.pressure = pressure;
+    const Eigen::Vector3d expected = pressure * 50 * Eigen::Vector3d(0.02, -0.01, 0.05);
+    // Analytic; the solid gets by virtual work what the device gives.
+    EXPECT_LT((grip.force(pose, p) - expected).norm(), 1e-12);
+    EXPECT_LT((grip.wrench(pose, p).force - expected).norm(), 1e-10);
+    EXPECT_LT((grip.felt(pose, p).force + expected).norm(), 1e-12);
+    // What the device feels changes with its way by so much: by differences, of which the force is linear.
+    for (int axis = 0; axis < 3; ++axis) {
+      StrokePose moved = pose;
+      moved.position[axis] += 1e-3;
+      const Eigen::Vector3d slope = (grip.felt(moved, p).force - grip.felt(pose, p).force) / 1e-3;
+      EXPECT_LT((slope - grip.felt(pose, p).derivative.col(axis)).norm(), 1e-9);
+    }
+  }
+}
+
 TEST_P(Pull, ItsForceIsSpreadOverWhatItTouches) {
   TestSession session(block(GetParam()));
   const Eigen::Matrix3Xd& p = session.document().positions();

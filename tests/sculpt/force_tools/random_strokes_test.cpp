@@ -54,7 +54,9 @@ class RandomStrokes {
     }
     std::string stroke = "stroke " + path;
     if (pick(3) == 0) stroke += " turns 1 0 0 0 0.6 0 0.8 0";
-    if (pick(3) == 0) stroke += fmt::format(" pressures {:.3g} {:.3g}", number(0, 1), number(0, 1));
+    if (pick(3) == 0)
+      stroke += fmt::format(" pressures {:.3g} {:.3g}{}", number(0, 1), number(0, 1),
+                            pick(2) == 0 ? " scales radius" : "");
     for (const char* flag : {"invert", "smoothing", "inside"})
       if (pick(5) == 0) stroke += fmt::format(" {}", flag);
     return {tool, stroke};

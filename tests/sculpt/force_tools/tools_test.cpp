@@ -114,6 +114,28 @@ TEST_P(Tools, InflatePressesAlongTheNormals) {
       1e-10);
 }
 
+TEST_P(Tools, InflatePressesOnLessWhereTheDeviceIsSmaller) {
+  TestSession session(block(GetParam()));
+  session.run({"levels 2"});  // the smaller brush is to have points enough
+  const Tool tool = tool_of("inflate");
+  const Eigen::Matrix3Xd& p = session.document().positions();
+  const auto inflate = take_hold(session.document(), tool, {k_top}, {});
+  const double whole = inflate->wrench({k_top}, p).force.z();
+  // A little above the surface, as where the body has given way: by its nearest point, not by the distance.
+  StrokePose half{k_top + Eigen::Vector3d(0, 0, 0.05)};
+  half.size = 0.5;
+  inflate->follow(half, session.document());
+  const fem::Wrench wrench = inflate->wrench(half, p);
+  // Half the radius is a quarter of the area, to the accuracy of sums over some dozen points.
+  EXPECT_NEAR(wrench.force.z(), whole / 4, 0.2 * whole / 4);
+  EXPECT_LT(wrench.force.head<2>().norm(), 1e-10);
+  half.size = 0;  // the least that the mesh has
+  inflate->follow(half, session.document());
+  EXPECT_LT(inflate->wrench(half, p).force.z(), whole / 8);
+  inflate->follow({k_top}, session.document());
+  EXPECT_NEAR(inflate->wrench({k_top}, p).force.z(), whole, 1e-12 * whole);
+}
+
 TEST_P(Tools, InflateInsideWorksOnEveryChangeOfVolume) {
   TestSession session(block(GetParam()));
   const Tool tool = tool_of("inflate");

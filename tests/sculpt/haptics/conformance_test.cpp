@@ -44,6 +44,7 @@ void expect_conforming(Device& device) {
     EXPECT_LE(sample.tick, tick) << "a pose from the future";
     EXPECT_GE(sample.tick, last_sample) << "time falls";
     last_sample = sample.tick;
+    EXPECT_TRUE(sample.pressure >= 0 && sample.pressure <= 1) << sample.pressure;
     if (sample.mode == DeviceMode::idle || sample.mode == DeviceMode::force || sample.mode == DeviceMode::brake) {
       EXPECT_TRUE(sample.pose.position.allFinite());
       EXPECT_NEAR(sample.pose.orientation.norm(), 1, 1e-9);
@@ -109,7 +110,11 @@ TEST(Conformance, Mouse) {
   MouseDevice mouse;
   mouse.grab(Vector3d(0, 0, 0.1), Vector3d(0, 0, -2));
   mouse.point({Vector3d(0.2, 0.1, 5), Vector3d(0, 0, -3)});
-  expect_conforming(mouse);
+  for (const double pressure : {0.3, 7.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    mouse.set_pressure(pressure);
+    expect_conforming(mouse);
+  }
+  EXPECT_EQ(mouse.exchange({}, 1'000'000).pressure, 0) << "as it was before what is no number";
 }
 
 TEST(Conformance, Rates) {

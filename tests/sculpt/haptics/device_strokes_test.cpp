@@ -30,7 +30,7 @@ const std::vector<std::string> k_block = {"new box 3 3 2 size 0.3 0.3 0.2", "lev
                                           "set damping 20", "tool pull radius 0.1 strength 300"};
 
 StrokePose stroke_pose(const DeviceSample& sample) {
-  return {sample.pose.position, sample.pose.orientation, 1};
+  return {sample.pose.position, sample.pose.orientation, sample.pressure};
 }
 
 /// Where a hand goes in 400 ms: round in the plane z = 0.25, in the numbers that a mouse gives back exactly.
@@ -78,6 +78,39 @@ TEST(DeviceStrokes, OneTraceThroughEveryDeviceGivesOneHash) {
               return near.exchange({}, tick);
             }),
             scripted);
+}
+
+TEST(DeviceStrokes, PressureGoesWithTheTrace) {
+  const std::vector<DevicePose> poses = trace();
+  const auto pressure_at = [](std::size_t i) { return 0.5 + 0.5 * std::sin(0.02 * static_cast<double>(i)); };
+  std::vector<PoseSegment> segments{{poses[0], poses[0], 0, Ease::linear, 1, pressure_at(0), pressure_at(0)}};
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    segments.push_back({poses[i - 1], poses[i], 1, Ease::linear, 1, pressure_at(i - 1), pressure_at(i)});
+  ScriptedDevice script(segments);
+  DeviceRecorder recorder(script);
+  const std::uint64_t scripted = hash_of([&](Tick tick) { return recorder.exchange({}, tick); });
+  ScriptedDevice unpressed = ScriptedDevice::from_poses(poses);
+  EXPECT_NE(hash_of([&](Tick tick) { return unpressed.exchange({}, tick); }), scripted);
+
+  RecordedDevice recorded(recorder.entries());
+  EXPECT_EQ(hash_of([&](Tick tick) { return recorded.exchange({}, tick); }), scripted);
+  MouseDevice mouse;
+  mouse.grab(poses[0].position, -Vector3d::UnitZ());
+  EXPECT_EQ(hash_of([&](Tick tick) {
+              const auto i = static_cast<std::size_t>(tick);
+              mouse.point({poses[i].position + Vector3d(0, 0, 4), -Vector3d::UnitZ()});
+              mouse.set_pressure(pressure_at(i));
+              return mouse.exchange({}, tick);
+            }),
+            scripted);
+  // Between two poses it changes as the way does, and a hand that follows presses as is meant.
+  ScriptedDevice slow({{poses[0], poses[400], 100, Ease::smooth, 1, 0.2, 0.6}});
+  EXPECT_EQ(slow.sample(0).pressure, 0.2);
+  EXPECT_EQ(slow.sample(50).pressure, 0.4);
+  EXPECT_NEAR(slow.sample(25).pressure, 0.2 + 0.4 * 0.15625, 1e-15);  // s²(3 − 2s) at a quarter
+  EXPECT_EQ(slow.sample(100).pressure, 0.6);
+  SimulatedHand hand(slow);
+  EXPECT_EQ(hand.exchange({}, 50).pressure, 0.4);
 }
 
 /// The hash of what a hand meets in each tick of a minute of strokes with pauses.
