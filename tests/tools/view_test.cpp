@@ -272,7 +272,13 @@ TEST(View, AFrameHoldsTheCameraWhateverTheSceneDoes) {
   how.height = 300;
   const auto filled = covered_box(renderer().render(small, how));
   how.frame->leaves_room = true;
-  EXPECT_LT(covered_box(renderer().render(small, how))[2], filled[2]);
+  const auto beside = covered_box(renderer().render(small, how));
+  EXPECT_LT(beside[2], filled[2]);
+  // Numbers that get longer, and arrows and pins that come, move nothing.
+  small.legend = sculpt::SceneLegend{.title = "stress", .unit = "", .low = -20000, .high = 20000};
+  small.arrows.push_back({{0, 0, 0}, {0.1F, 0, 0}});
+  small.pins.push_back({0, 0, 0});
+  EXPECT_EQ(covered_box(renderer().render(small, how)), beside);
   how.frame = sculpt::box_frame({1, 1, 1}, {1, 1, 1});
   EXPECT_EQ(error_of(small, how), ErrorCode::bad_input);
   how.frame->places.clear();

@@ -173,13 +173,19 @@ class OffscreenRenderer final : public sculpt::Renderer {
     Margins free;
     const double pixel_x = static_cast<double>(pixel) / options.width,
                  pixel_y = static_cast<double>(pixel) / options.height;
-    if (has_legend) free.right = std::max(free.right, legend_width(*scene.legend, font_, pixel, options.width));
-    if (!scene.arrows.empty() || !scene.cage_points.empty()) {
+    // What comes and goes from one picture of a frame to the next must not move the eye.
+    const bool framed = options.frame.has_value();
+    if (has_legend) {
+      sculpt::SceneLegend legend = *scene.legend;
+      if (framed && legend.names.empty()) legend.names = {"-0.0000 k" + legend.unit};  // its widest number
+      free.right = std::max(free.right, legend_width(legend, font_, pixel, options.width));
+    }
+    if (framed || !scene.arrows.empty() || !scene.cage_points.empty()) {
       free.left += 8 * pixel_x;
       free.right += 8 * pixel_x;
       free.top += 8 * pixel_y;
     }
-    if (!scene.pins.empty()) free.bottom += 18 * pixel_y;
+    if (framed || !scene.pins.empty()) free.bottom += 18 * pixel_y;
     if (!options.title.empty()) free.top += 30 * pixel_y;
     if (scene.felt) free.bottom += 30 * pixel_y;
     return free;
