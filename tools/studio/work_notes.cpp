@@ -47,10 +47,12 @@ void draw_note(Desk& desk, const Layout& layout, const WorkNote& note, int above
   const float bottom = layout.timeline.y - ui.px(60) - static_cast<float>(above) * (high + ui.px(8));
   const Rect place = begin_note(desk, ("work " + name).c_str(),
                                 {layout.free.x + 0.5F * (layout.free.width - wide), bottom - high, wide, high});
+  std::string said = name.empty() ? work.what : name + ": " + work.what;
+  if (!said.empty() && said[0] >= 'a' && said[0] <= 'z') said[0] = static_cast<char>(said[0] - 'a' + 'A');
   ImDrawList& draw = ui.list();
   const Rect line{place.x + ui.px(16), place.y + ui.px(8), wide - ui.px(note.end ? 132 : 32), ui.px(24)};
   draw.PushClipRect({line.x, line.y}, {line.right(), line.bottom()}, true);
-  ui.text(draw, ui.fonts().small, line, t.text, name.empty() ? work.what : name + ": " + work.what);
+  ui.text(draw, ui.fonts().small, line, t.text, said);
   draw.PopClipRect();
   const Rect bar{line.x, place.y + ui.px(40), line.width, ui.px(6)};
   ui.box(draw, bar, t.outline, 3);
