@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cassert>
+#include <cmath>
 
 #include "fem/discretization/linear_mesh.h"
 #include "fem/discretization/materials.h"
@@ -91,19 +92,21 @@ std::vector<std::uint8_t> add_published_block(Discretization& to, const subdiv::
 }
 
 /// All elements on the vertices of the finest level: trilinear ones, or where `published`, tricubic ones as well.
-void build_on_finest(Discretization& to, const subdiv::Refinement& refinement, bool published) {
+void build_on_finest(Discretization& to, const subdiv::Refinement& refinement, bool published,
+                     const Progress& progress) {
   LinearCells cells{&refinement.solid(), refinement.finest(), {}};
   const std::vector<std::uint8_t> left =
       published ? add_published_block(to, refinement) : std::vector<std::uint8_t>();
   for (const CellId c : refinement.solid().cells())
     if (left.empty() || left[c.index()]) cells.cells.push_back(c);
   const LinearMesh mesh = mesh_linearly(cells);
+  progress.at(0.5);
   const std::size_t vertices = refinement.solid().vertex_capacity();
   NodeTable& table = to.nodes;
   table.rows = refinement.stencils.back();
   table.level_begin.assign(refinement.levels.size() + 1, 0);
   table.level_begin.back() = table.virtual_centre_begin = vertices;
-  table.rows.append(subdiv::compose(mesh.centres, refinement.stencils.back()));
+  table.rows.append(subdiv::compose(mesh.centres, refinement.stencils.back(), progress.part(0.5, 1)));
   table.phantom_begin = table.limit_begin = table.node_count();
   to.field_samples.rows = Stencils::identity(vertices);
   to.field_samples.rows.append(mesh.centres);
@@ -122,7 +125,8 @@ struct SplitLevels {
   LinearCells cells;
 };
 
-SplitLevels split_finest(const subdiv::Refinement& refinement, int split, const std::vector<std::uint8_t>& left) {
+SplitLevels split_finest(const subdiv::Refinement& refinement, int split, const std::vector<std::uint8_t>& left,
+                         const Progress& progress) {
   SplitLevels result;
   const Solid* solid = &refinement.solid();
   result.fields = Stencils::identity(solid->vertex_capacity());
@@ -132,8 +136,9 @@ SplitLevels split_finest(const subdiv::Refinement& refinement, int split, const 
   for (int s = 0; s < split; ++s) {
     const NextLevel next(*solid);
     for (std::uint32_t& v : result.vertex_points) v = next.vertex_point(VertexId{v});
-    result.fields = subdiv::compose(midpoint_stencils(*solid), result.fields);
-    subdiv::RefinementStep step = subdiv::refine(*solid, refinement.rules);
+    const Progress part = progress.part(std::pow(8.0, s - split) * (s > 0 ? 1 : 0), std::pow(8.0, s + 1 - split));
+    result.fields = subdiv::compose(midpoint_stencils(*solid), result.fields, part.part(0, 0.3));
+    subdiv::RefinementStep step = subdiv::refine(*solid, refinement.rules, part.part(0.3, 1));
     std::vector<std::uint8_t> open_below(step.coarse_from_fine.size());
     for (std::size_t c = 0; c < open_below.size(); ++c)
       open_below[c] = open[step.coarse_from_fine.raw()[c].index()];
@@ -150,8 +155,8 @@ SplitLevels split_finest(const subdiv::Refinement& refinement, int split, const 
 
 /// Tricubic elements of all levels as one block; the vertices and phantoms that they name go into the table.
 /// Returns the phantoms in control points, which stand after the virtual centres.
-Stencils add_tricubic_block(Discretization& to, const subdiv::Refinement& refinement,
-                            const TricubicChoice& choice) {
+Stencils add_tricubic_block(Discretization& to, const subdiv::Refinement& refinement, const TricubicChoice& choice,
+                            const Progress& progress) {
   const auto finest = finest_vertices(refinement);
   ElementBlock block;
   block.kind = &bspline_hexahedron();
@@ -181,6 +186,7 @@ Stencils add_tricubic_block(Discretization& to, const subdiv::Refinement& refine
     }
     to.nodes.rows.append(refinement.stencils[level]);
     phantoms.append(subdiv::compose(nets.phantoms, refinement.stencils[level]));
+    progress.at(std::pow(8.0, static_cast<double>(level) + 1 - static_cast<double>(refinement.levels.size())));
   }
   to.nodes.level_begin.push_back(to.nodes.node_count());
   if (!block.origins.empty()) {
@@ -190,17 +196,20 @@ Stencils add_tricubic_block(Discretization& to, const subdiv::Refinement& refine
   return phantoms;
 }
 
-void build_cubic(Discretization& to, const subdiv::Refinement& refinement, const NodalFields& fields, int split) {
+void build_cubic(Discretization& to, const subdiv::Refinement& refinement, const NodalFields& fields, int split,
+                 const Progress& progress) {
   const TricubicChoice choice = choose_tricubic(refinement, fields);
+  progress.at(0.1);
   bool any_left = false;
   for (const std::uint8_t l : choice.left) any_left = any_left || l != 0;
 
   NodeTable& table = to.nodes;
   table.rows.column_count = refinement.stencils[0].column_count;
-  const Stencils phantoms = add_tricubic_block(to, refinement, choice);
+  const Stencils phantoms = add_tricubic_block(to, refinement, choice, progress.part(0.1, 0.2));
 
-  const SplitLevels levels = split_finest(refinement, any_left ? split : 0, choice.left);
+  const SplitLevels levels = split_finest(refinement, any_left ? split : 0, choice.left, progress.part(0.2, 0.5));
   const LinearMesh mesh = mesh_linearly(levels.cells);
+  progress.at(0.6);
   const Solid& solid = *levels.cells.solid;
 
   // Limit points that elements or the surface name, through the split levels to the control points.
@@ -216,15 +225,17 @@ void build_cubic(Discretization& to, const subdiv::Refinement& refinement, const
     number[v] = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back(static_cast<std::uint32_t>(v));
   }
-  Stencils limits = select_rows(subdiv::limit_stencils(solid, refinement.rules), vertices);
-  for (std::size_t s = levels.steps.size(); s-- > 0;) limits = subdiv::compose(limits, levels.steps[s]);
-  limits = subdiv::compose(limits, refinement.stencils.back());
+  Stencils limits = select_rows(subdiv::limit_stencils(solid, refinement.rules, progress.part(0.6, 0.7)), vertices);
+  progress.at(0.7);
+  for (std::size_t s = levels.steps.size(); s-- > 0;)
+    limits = subdiv::compose(limits, levels.steps[s], progress.part(0.7, 0.8));
+  limits = subdiv::compose(limits, refinement.stencils.back(), progress.part(0.8, 0.9));
   Stencils centres = mesh.centres;
   for (std::uint32_t& column : centres.columns) column = number[column];
   centres.column_count = vertices.size();
 
   table.virtual_centre_begin = table.node_count();
-  table.rows.append(subdiv::compose(centres, limits));
+  table.rows.append(subdiv::compose(centres, limits, progress.part(0.9, 1)));
   table.phantom_begin = table.node_count();
   table.rows.append(phantoms);
   table.limit_begin = table.node_count();
@@ -312,10 +323,12 @@ CellCounts count_cells(const Solid& finest) {
 }
 
 Discretization discretize(const subdiv::Refinement& refinement, const Eigen::Matrix3Xd& rest_control_points,
-                          const NodalFields& fields, const DiscretizationOptions& options) {
+                          const NodalFields& fields, const DiscretizationOptions& options,
+                          const Progress& progress) {
   assert(static_cast<std::size_t>(rest_control_points.cols()) == refinement.levels[0].vertex_capacity());
   assert(static_cast<std::size_t>(fields.young_modulus.size()) == refinement.solid().vertex_capacity());
   assert(options.split >= 0);
+  progress.at(0);
   Discretization result;
   result.space = options.space;
   result.level = refinement.finest();
@@ -323,23 +336,26 @@ Discretization discretize(const subdiv::Refinement& refinement, const Eigen::Mat
   // Loads and tools act on the quadrilaterals of the finest level; only level 0 has other faces.
   if (refinement.finest() == 0) check_quadrilaterals(refinement.solid());
   if (options.space == Space::cubic)
-    build_cubic(result, refinement, fields, options.split);
+    build_cubic(result, refinement, fields, options.split, progress.part(0.05, 0.4));
   else
-    build_on_finest(result, refinement, options.space == Space::published);
+    build_on_finest(result, refinement, options.space == Space::published, progress.part(0.05, 0.4));
   for (const ElementBlock& block : result.blocks) {
     if (block.kind == &bspline_hexahedron()) result.elements.cubic += block.element_count();
     if (block.kind == &trilinear_hexahedron()) result.elements.linear += block.element_count();
     if (block.kind == &pyramid()) result.elements.pyramid += block.element_count();
   }
+  progress.at(0.4);
   result.rows_transposed = subdiv::transpose(result.nodes.rows);
+  progress.at(0.45);
   result.rest_nodes = subdiv::apply(result.nodes.rows, rest_control_points);
   set_geometry(result);
-  set_materials(result, fields);
+  set_materials(result, fields, progress.part(0.5, 1));
   return result;
 }
 
-bool update_fields(Discretization& discretization, const subdiv::Refinement& refinement,
-                   const NodalFields& fields) {
+bool update_fields(Discretization& discretization, const subdiv::Refinement& refinement, const NodalFields& fields,
+                   const Progress& progress) {
+  progress.at(0);
   if (discretization.space == Space::cubic) {
     const TricubicChoice choice = choose_tricubic(refinement, fields);
     std::size_t chosen = 0;
@@ -352,7 +368,7 @@ bool update_fields(Discretization& discretization, const subdiv::Refinement& ref
         if (origin.level != level || origin.cell != c.value) return false;
       }
   }
-  set_materials(discretization, fields);
+  set_materials(discretization, fields, progress);
   return true;
 }
 

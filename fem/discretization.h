@@ -97,12 +97,12 @@ struct Discretization {
 /// a cell with faces that are not quadrilaterals, which only level 0 has.
 [[nodiscard]] Discretization discretize(const subdiv::Refinement& refinement,
                                         const Eigen::Matrix3Xd& rest_control_points, const NodalFields& fields,
-                                        const DiscretizationOptions& options);
+                                        const DiscretizationOptions& options, const Progress& progress = {});
 
 /// Takes new fields (same refinement and rest positions) into material arrays, mass and damping. In cubic space the
 /// choice of levels may change with the fields: returns false if discretize() has to be called instead.
 [[nodiscard]] bool update_fields(Discretization& discretization, const subdiv::Refinement& refinement,
-                                 const NodalFields& fields);
+                                 const NodalFields& fields, const Progress& progress = {});
 
 /// Present volume [m³]: sum over quadrature points of volume · det F.
 [[nodiscard]] double volume(const Discretization& discretization, const Eigen::Matrix3Xd& nodes);

@@ -131,8 +131,8 @@ const subdiv::Refinement& Document::refinement() const {
   const std::uint64_t topology = solid().topology_hash();
   if (!d.refinement || d.topology != topology || d.level != state_.level || d.refinement->rules != state_.rules) {
     d.drop_from_discretization();
-    d.refinement =
-        std::make_unique<subdiv::Refinement>(subdiv::refine_to_level(solid(), state_.level, state_.rules));
+    d.refinement = std::make_unique<subdiv::Refinement>(
+        subdiv::refine_to_level(solid(), state_.level, state_.rules, progress.of("refining")));
     d.topology = topology;
     d.level = state_.level;
   }
@@ -151,10 +151,10 @@ const fem::Discretization& Document::discretization() const {
   d.contact_surface.reset();
   d.shown_elements.reset();
   d.fields.reset();  // in case what follows throws half way
-  if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal)) {
+  if (!same_shape || !fem::update_fields(*d.discretization, refined, nodal, progress.of("taking materials"))) {
     d.drop_from_discretization();
-    d.discretization = std::make_unique<fem::Discretization>(
-        fem::discretize(refined, rest(), nodal, {.space = state_.space, .split = state_.split}));
+    d.discretization = std::make_unique<fem::Discretization>(fem::discretize(
+        refined, rest(), nodal, {.space = state_.space, .split = state_.split}, progress.of("making elements")));
   }
   d.rest = state_.rest;
   d.columns_stamp = state_.columns_stamp;
@@ -169,6 +169,7 @@ const fem::ForceModel& Document::model() const {
   const fem::Discretization& discretized = discretization();
   if (!d.model || d.model_choice != state_.model) {
     d.drop_models();
+    progress.of("making the force model").at(0);
     d.model = fem::make_model(state_.model, discretized.blocks, discretized.rest_nodes);
     d.model_choice = state_.model;
   }

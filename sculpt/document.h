@@ -18,6 +18,7 @@
 #include "fem/models/model_table.h"
 #include "fem/models/plastic_flow.h"
 #include "sculpt/tracks.h"
+#include "subdiv/progress.h"
 #include "subdiv/refinement.h"
 #include "subdiv/transaction.h"
 
@@ -187,6 +188,7 @@ class Document {
   [[nodiscard]] std::uint64_t state_hash() const;
 
   Limits limits;
+  Progress progress;  // told while something derived is made; what it throws leaves the document as it is
 
  private:
   State state_;

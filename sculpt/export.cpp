@@ -149,7 +149,9 @@ std::vector<std::string> save_document(const Document& document, const std::file
       names.insert(names.end(), {"strain", "strain_1", "strain_2", "strain_3", "stress", "stress_1", "stress_2",
                                  "stress_3", "pressure", "distortion", "speed"});
     if (reference) names.emplace_back("error");
+    const Progress gathering = document.progress.of("gathering fields");
     for (const std::string& name : names) {
+      gathering.at(static_cast<double>(mesh.point_fields.size()) / static_cast<double>(names.size()));
       const ShownField field = shown_field(document, name, reference);
       io::NamedField out{.name = name, .components = 1, .values = {}};
       for (const subdiv::VertexId v : solid.vertices())
@@ -167,6 +169,7 @@ std::vector<std::string> save_document(const Document& document, const std::file
   SetExport(document, level, mesh, notes);
   for (std::string& note : io::leave_out_what_is_not_held(mesh, format)) notes.push_back(std::move(note));
   if (const std::string note = sharpness_note(solid); !note.empty()) notes.push_back(note);
+  document.progress.of("writing").at(0);  // the last word: a file is there whole or not at all
   io::write_volume_mesh(path, mesh, options);
   return notes;
 }

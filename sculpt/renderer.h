@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "subdiv/progress.h"
+
 namespace argil::sculpt {
 
 /// A polygonal surface or set of cells' faces. Faces are quadrilaterals or polygons as CSR corners.
@@ -104,9 +106,12 @@ struct Scene {
   std::optional<SceneFelt> felt{};
   std::optional<SceneLegend> legend;  // with values: its map between low and high
   bool draw_surface = true;
-  /// Points that the picture takes in, in place of all that is shown, as in a film whose eye stands still; empty:
-  /// none.
-  std::vector<Eigen::Vector3f> framed;
+};
+
+/// What a picture takes in, in place of all that it shows: pictures of one frame have one scale.
+struct PictureFrame {
+  std::vector<Eigen::Vector3f> places;  // [m], not all the same
+  bool leaves_room = false;             // beside them for the legend and what else is written; else they fill it
 };
 
 struct PictureOptions {
@@ -118,8 +123,8 @@ struct PictureOptions {
   bool light_theme = false;
   int samples = 4;      // a pixel, on a square grid: 1, 4, 9 or 16
   std::string title{};  // above the picture, at the left
-  std::optional<std::array<Eigen::Vector3f, 2>>
-      frame{};  // corners of a box that is framed instead of the scene [m]
+  std::optional<PictureFrame> frame{};
+  Progress progress{};  // told as the picture is drawn
 };
 
 struct Picture {

@@ -200,6 +200,17 @@ void keep_wire_between(SceneSurface& surface, const CellData<CellId>& group_from
                 [&](const Ends& ends) { return !std::binary_search(kept.begin(), kept.end(), ascending(ends)); });
 }
 
+PictureFrame box_frame(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  PictureFrame frame;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d at = low;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((corner >> axis & 1) != 0) at[axis] = high[axis];
+    frame.places.push_back(at.cast<float>());
+  }
+  return frame;
+}
+
 double round_step(double span, int most) {
   assert(span > 0 && std::isfinite(span) && most > 0);
   const double raw = span / most;

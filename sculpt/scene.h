@@ -62,6 +62,9 @@ void show_field(Scene& scene, std::span<const double> value_from_vertex, const s
 /// Adds the edges and vertices of a control mesh as its cage: those of the boundary, or with `interior` all.
 void add_cage(Scene& scene, const subdiv::Solid& solid, const Eigen::Matrix3Xd& positions, bool interior = false);
 
+/// The box between two corners [m], as a frame of pictures.
+[[nodiscard]] PictureFrame box_frame(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
 /// A step of 1, 2 or 5 times a power of ten that cuts a positive span into at most `most` parts, or the next
 /// larger.
 [[nodiscard]] double round_step(double span, int most);

@@ -12,8 +12,30 @@
 
 namespace argil::sculpt {
 
+namespace {
+
+constexpr double k_stage = 0.7;  // of what is left of a line, that a stage of it counts as
+
+/// Says that a line runs, for as long as this lives.
+class RunningLine {
+ public:
+  explicit RunningLine(bool& runs) : runs_(runs) { runs_ = true; }
+  ~RunningLine() { runs_ = false; }
+  RunningLine(const RunningLine&) = delete;
+  RunningLine& operator=(const RunningLine&) = delete;
+
+ private:
+  bool& runs_;
+};
+
+}  // namespace
+
 Session::Session(SessionOptions options) : options_(std::move(options)) {
   document_.limits = options_.limits;
+  if (options_.progress) {
+    stage_listener_ = [this](double share, const char* what) { hear_stage(share, what); };
+    document_.progress = Progress(stage_listener_);
+  }
   std::error_code failure;
   std::filesystem::create_directories(options_.out, failure);
   if (failure)
@@ -29,14 +51,11 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
   }
   if (!options_.step_trace.empty()) step_trace_.open(options_.step_trace);
   if (options_.write_journal) {
-    journal_path_ = options_.out / "journal.argil";
+    journal_path_ = options_.out / options_.journal;
     // What an earlier program left here may be all that there is of someone's work.
-    std::filesystem::rename(journal_path_, options_.out / "journal.previous.argil", failure);
-    journal_.open(journal_path_, std::ios::trunc);
-    if (!journal_)
-      throw Error(ErrorCode::bad_input,
-                  fmt::format("the journal '{}' cannot be written; choose another folder with --out",
-                              journal_path_.string()));
+    const std::string previous = journal_path_.stem().string() + ".previous.argil";
+    std::filesystem::rename(journal_path_, options_.out / previous, failure);
+    open_journal(std::ios::trunc);
     journal_ << io::k_session_header << std::endl;
   }
 }
@@ -54,12 +73,14 @@ void Session::run_text(const std::string& text, const std::string& file_name) {
   lines_ = 0;
   for (const io::SessionLine& line : lines) {
     if (stop_requested()) break;
-    progress(static_cast<double>(lines_) / static_cast<double>(line_count_), line.text);
+    told_ = 0;
+    progress(0, line.text);
     run_line(line);
     ++lines_;
   }
   end_recordings();
-  if (line_count_ > 0) progress(1, "");
+  if (line_count_ > 0 && options_.progress) options_.progress(1, "");
+  line_count_ = lines_ = 0;
 }
 
 void Session::run_line(const std::string& text) {
@@ -91,8 +112,11 @@ void Session::execute(const io::SessionLine& line) {
   const Arguments arguments = bind(command, line);
   start_ = document_.state();
   const std::size_t depth = done_.size(), steps = steps_.size();
+  first_depth_ = depth;
   first_step_ = steps;
-  wanted_steps_ = 0;
+  wanted_steps_ = told_ = stage_from_ = stage_share_ = 0;
+  stage_.clear();
+  const RunningLine running(runs_line_);
   const auto take_back = [&] {  // a failed command changes nothing
     if (done_.size() != depth || command.effect != Effect::state) return;
     document_.assign(start_);
@@ -100,6 +124,9 @@ void Session::execute(const io::SessionLine& line) {
   };
   try {
     command.run(*this, arguments);
+  } catch (const Cancelled&) {
+    take_back();
+    throw;
   } catch (const Error& error) {
     take_back();
     if (error.where().starts_with(current_.file + ":")) throw;
@@ -221,8 +248,28 @@ void Session::print(const std::string& message) const {
   if (options_.print) options_.print(message);
 }
 
-void Session::progress(double fraction, const std::string& what) const {
-  if (options_.progress) options_.progress(fraction, what);
+void Session::progress(double fraction, const std::string& what) {
+  if (!options_.progress || (runs_line_ && done_.size() != first_depth_)) return;
+  const bool is_known = fraction >= 0 || line_count_ > 0;
+  told_ = std::clamp(fraction, told_, 1.0);
+  const double share =
+      line_count_ > 0 ? (static_cast<double>(lines_) + told_) / static_cast<double>(line_count_) : told_;
+  options_.progress(is_known ? share : -1, what);
+}
+
+// How many things a line has to do is not known before; in a step it is the step that they are parts of.
+void Session::hear_stage(double share, const char* what) {
+  if (!runs_line_) {
+    if (options_.progress) options_.progress(-1, what);
+    return;
+  }
+  if (share == 0 || stage_ != what) {
+    stage_ = what;
+    stage_from_ = stage_share_;
+  }
+  stage_share_ = std::max(stage_share_, stage_from_ + k_stage * (1 - stage_from_) * std::min(share, 1.0));
+  const double taken = static_cast<double>(steps_.size() - first_step_);
+  progress(wanted_steps_ > 0 ? std::min(1.0, (taken + stage_share_) / wanted_steps_) : stage_share_, what);
 }
 
 void Session::step_done(const StepRecord& record, const fem::Loads& tool) {
@@ -232,11 +279,10 @@ void Session::step_done(const StepRecord& record, const fem::Loads& tool) {
   trace("step");
   for (const auto& recording : recordings_) recording->step(document_);
   if (options_.stepped) options_.stepped(document_);
+  stage_from_ = stage_share_ = 0;
   const double taken = static_cast<double>(steps_.size() - first_step_);
-  const double share = line_count_ > 0     ? static_cast<double>(lines_) / static_cast<double>(line_count_)
-                       : wanted_steps_ > 0 ? std::min(1.0, taken / wanted_steps_)
-                                           : -1;
-  progress(share, fmt::format("step {}", steps_.size()));
+  const bool is_known = runs_line_ && wanted_steps_ > 0;
+  progress(is_known ? std::min(1.0, taken / wanted_steps_) : -1, fmt::format("step {}", steps_.size()));
 }
 
 void Session::require_steps(double count) {
@@ -246,7 +292,7 @@ void Session::require_steps(double count) {
     throw Error(ErrorCode::limit_exceeded,
                 fmt::format("{:.0f} steps after {:.0f} are more than {}; raise --max-steps", count, taken,
                             options_.limits.steps));
-  wanted_steps_ = taken + count - static_cast<double>(first_step_);
+  wanted_steps_ = std::max(wanted_steps_, taken + count - static_cast<double>(first_step_));
 }
 
 bool Session::stop_requested() const {
@@ -290,6 +336,29 @@ void Session::trace(const std::string& what) {
   if (!trace_.is_open()) return;
   trace_ << current_.number << ' ' << what << ' ' << steps_.size() << ' '
          << fmt::format("{:016x}", document_.state_hash()) << '\n';
+}
+
+void Session::open_journal(std::ios::openmode how) {
+  journal_.open(journal_path_, how);
+  if (!journal_)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the journal '{}' cannot be written; choose another folder with --out",
+                            journal_path_.string()));
+}
+
+void Session::rename_journal(const std::string& name) {
+  if (!journal_.is_open()) return;
+  journal_.close();
+  std::error_code failure;
+  const std::filesystem::path to = options_.out / name;
+  std::filesystem::rename(journal_path_, to, failure);
+  if (!failure) journal_path_ = to;
+  open_journal(std::ios::app);
+  if (failure)
+    throw Error(ErrorCode::bad_input,
+                fmt::format("the journal cannot be written as '{}' ({}); choose another folder "
+                            "with --out",
+                            to.string(), failure.message()));
 }
 
 void Session::journal(const std::string& line) {

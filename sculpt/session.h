@@ -55,11 +55,13 @@ struct SessionOptions {
   std::map<std::string, std::string> overrides;  // command → arguments, `--set space=cubic`
   long until_step = -1;                          // stop after so many simulation steps; −1: run all
   bool write_journal = true;
+  std::string journal = "journal.argil";  // its name beneath `out`
   Limits limits;
   Renderer* renderer = nullptr;  // null: pictures are skipped, and said so
   fem::Clock clock = nullptr;
   std::function<void(const std::string&)> print;  // messages for the user
-  /// Of a file, or of a line alone: −1 where the fraction is not known. What it throws ends the line.
+  /// Of a file, or of a line alone: 0 … 1 and never falling, or −1 where it is not known. What it throws ends the
+  /// line, which then changes nothing.
   std::function<void(double fraction, const std::string& what)> progress;
   std::function<void(const Document&)> stepped;  // after every step of the simulation, as for a film
 };
@@ -104,7 +106,11 @@ class Session {
   std::filesystem::path path_to_read(const std::string& name) const;
   std::filesystem::path path_to_write(const std::string& name) const;
   void print(const std::string& message) const;
-  void progress(double fraction, const std::string& what) const;
+  /// Tells how much of the line that runs is done; −1 where that is not known. It never falls within a line, and
+  /// once the line has changed the document, nothing more is told: what is done is done.
+  void progress(double fraction, const std::string& what);
+  /// For what takes long in the line that runs, of which each thing that begins counts as most of what is left.
+  [[nodiscard]] Progress progress_of(const char* what) const { return Progress(stage_listener_, what); }
   /// To be asked before `count` steps are taken (as many as `until_step` lets through). @throws Error
   /// (limit_exceeded).
   void require_steps(double count);
@@ -132,6 +138,8 @@ class Session {
   const std::vector<MeasureRecord>& measures() const { return measures_; }
   const std::vector<SampledLine>& samples() const { return samples_; }
   std::filesystem::path journal_path() const { return journal_path_; }
+  /// Gives the journal another name beneath `out`, in place of any file that has it. @throws Error (bad_input).
+  void rename_journal(const std::string& name);
   int expectations = 0;
   int skipped_pictures = 0;
 
@@ -144,7 +152,9 @@ class Session {
   void drop_what_lost_its_points(State& next, bool topology_changed) const;
   void trace(const std::string& what);
   void journal(const std::string& line);
+  void open_journal(std::ios::openmode how);
   void execute(const io::SessionLine& line);
+  void hear_stage(double share, const char* what);
 
   SessionOptions options_;
   Document document_;
@@ -164,6 +174,12 @@ class Session {
   std::size_t first_step_ = 0;  // of the line that runs
   double wanted_steps_ = 0;     // of that line, as far as is known
   std::uint64_t columns_stamp_ = 0;
+  // Progress of the line that runs (progress.h).
+  Progress::Listener stage_listener_;
+  bool runs_line_ = false;
+  std::size_t first_depth_ = 0;  // of the undo stack before it
+  double told_ = 0, stage_from_ = 0, stage_share_ = 0;
+  std::string stage_;
 };
 
 }  // namespace argil::sculpt

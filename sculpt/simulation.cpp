@@ -65,7 +65,8 @@ void simulation_step(Session& session, const fem::Loads& tool, double time_step)
   const State before = document.state();
   State next = before;
   fem::BodyState motion = *next.motion;
-  const fem::StepOptions options = step_options(next);
+  fem::StepOptions options = step_options(next);
+  options.progress = session.progress_of("solving");
   const double load_share = fem::load_share(next.method, next.spectral_radius);
   const bool was_frozen = next.guard.frozen;
   StepRecord record;

@@ -11,6 +11,9 @@ namespace argil::subdiv {
 
 namespace {
 
+// Two words of progress.
+constexpr std::size_t k_vertices_between = 512, k_semi_sharp_between = 256;
+
 // The left eigenvector for eigenvalue 1, of sum one. The columns of Sᵀ − 1 sum to zero, so one row may give way to
 // the condition on the sum.
 std::vector<double> left_eigenvector(const Eigen::MatrixXd& refinement) {
@@ -145,14 +148,16 @@ SemiSharpLimit semi_sharp_limit(const Solid& solid, VertexId v, RuleSet rule_set
 
 }  // namespace
 
-Stencils limit_stencils(const Solid& solid, RuleSet rule_set) {
+Stencils limit_stencils(const Solid& solid, RuleSet rule_set, const Progress& progress) {
   const PointRules rules(solid, rule_set);
   WeightTable table(rules.scheme());
   std::vector<Weights> weights(solid.vertex_capacity());
   std::vector<VertexId> semi_sharp;
   constexpr std::size_t k_not_semi_sharp = static_cast<std::size_t>(-1);
   std::vector<std::size_t> place(solid.vertex_capacity(), k_not_semi_sharp);  // in semi_sharp
+  const auto count = static_cast<double>(solid.vertex_capacity());
   for (const VertexId v : solid.vertices()) {
+    if (v.index() % k_vertices_between == 0) progress.at(0.5 * static_cast<double>(v.index()) / count);
     if (rules.is_semi_sharp_at(v)) {
       place[v.index()] = semi_sharp.size();
       semi_sharp.push_back(v);
@@ -161,19 +166,26 @@ Stencils limit_stencils(const Solid& solid, RuleSet rule_set) {
     }
   }
   std::vector<SemiSharpLimit> limits(semi_sharp.size());
-  parallel_for(semi_sharp.size(), 1,
-               [&](std::size_t i) { limits[i] = semi_sharp_limit(solid, semi_sharp[i], rule_set); });
-  return assemble_rows(solid.vertex_capacity(), solid.vertex_capacity(), [&](std::size_t i, RowBuilder& row) {
-    if (!solid.is_live(VertexId{i})) return;
-    if (place[i] == k_not_semi_sharp) {
-      add_limit(solid, rules, VertexId{i}, weights[i], row);
-      return;
-    }
-    const SemiSharpLimit& limit = limits[place[i]];
-    const StencilRow from = limit.row.row(0);
-    for (std::size_t j = 0; j < from.columns.size(); ++j)
-      row.add(limit.vertex_from_column[from.columns[j]], from.weights[j]);
-  });
+  for (std::size_t begin = 0; begin < limits.size(); begin += k_semi_sharp_between) {
+    progress.at(0.5 + 0.2 * static_cast<double>(begin) / static_cast<double>(limits.size()));
+    parallel_for(std::min(k_semi_sharp_between, limits.size() - begin), 1, [&](std::size_t i) {
+      limits[begin + i] = semi_sharp_limit(solid, semi_sharp[begin + i], rule_set);
+    });
+  }
+  return assemble_rows(
+      solid.vertex_capacity(), solid.vertex_capacity(),
+      [&](std::size_t i, RowBuilder& row) {
+        if (!solid.is_live(VertexId{i})) return;
+        if (place[i] == k_not_semi_sharp) {
+          add_limit(solid, rules, VertexId{i}, weights[i], row);
+          return;
+        }
+        const SemiSharpLimit& limit = limits[place[i]];
+        const StencilRow from = limit.row.row(0);
+        for (std::size_t j = 0; j < from.columns.size(); ++j)
+          row.add(limit.vertex_from_column[from.columns[j]], from.weights[j]);
+      },
+      progress.part(0.7, 1));
 }
 
 }  // namespace argil::subdiv

@@ -4,6 +4,7 @@
 // computed once per neighbourhood type. Where something is semi-sharp, the cells at the vertex are refined until it
 // no longer is, so the limit is exact there too.
 
+#include "subdiv/progress.h"
 #include "subdiv/rule_set.h"
 #include "subdiv/solid.h"
 #include "subdiv/stencils.h"
@@ -16,6 +17,7 @@ namespace argil::subdiv {
 /// Cost O(cell corners), one factorisation a kind of extraordinary neighbourhood, and up to 10 refinements of the
 /// cells at a semi-sharp vertex.
 /// @throws what refine() throws.
-[[nodiscard]] Stencils limit_stencils(const Solid& solid, RuleSet rules = RuleSet::maccracken_joy);
+[[nodiscard]] Stencils limit_stencils(const Solid& solid, RuleSet rules = RuleSet::maccracken_joy,
+                                      const Progress& progress = {});
 
 }  // namespace argil::subdiv

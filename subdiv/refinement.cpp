@@ -1,6 +1,7 @@
 #include "subdiv/refinement.h"
 
 #include <cassert>
+#include <cmath>
 #include <map>
 
 namespace argil::subdiv {
@@ -33,7 +34,7 @@ std::size_t refined_cell_count(const Solid& solid, int level_count) {
   return total;
 }
 
-Refinement refine_to_level(const Solid& control, int level_count, RuleSet rules) {
+Refinement refine_to_level(const Solid& control, int level_count, RuleSet rules, const Progress& progress) {
   assert(level_count >= 0);
   Refinement result;
   result.rules = rules;
@@ -43,8 +44,12 @@ Refinement refine_to_level(const Solid& control, int level_count, RuleSet rules)
   result.parent.emplace_back();
   result.parent_corner.emplace_back();
   for (int level = 1; level <= level_count; ++level) {
-    RefinementStep step = refine(result.levels.back(), rules);
-    result.stencils.push_back(level == 1 ? step.stencils : compose(step.stencils, result.stencils.back()));
+    // Each level has about eight times as much to do as the one before.
+    const Progress part = progress.part(std::pow(8.0, level - 1 - level_count) * (level > 1 ? 1 : 0),
+                                        std::pow(8.0, level - level_count));
+    RefinementStep step = refine(result.levels.back(), rules, part.part(0, 0.5));
+    result.stencils.push_back(level == 1 ? step.stencils
+                                         : compose(step.stencils, result.stencils.back(), part.part(0.5, 1)));
     result.levels.push_back(std::move(step.fine));
     result.step_stencils.push_back(std::move(step.stencils));
     result.parent.push_back(std::move(step.coarse_from_fine));

@@ -27,6 +27,6 @@ struct Refinement {
 
 /// @throws what refine() throws.
 [[nodiscard]] Refinement refine_to_level(const Solid& control, int level_count,
-                                         RuleSet rules = RuleSet::maccracken_joy);
+                                         RuleSet rules = RuleSet::maccracken_joy, const Progress& progress = {});
 
 }  // namespace argil::subdiv

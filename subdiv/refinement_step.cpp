@@ -10,6 +10,8 @@ namespace argil::subdiv {
 
 namespace {
 
+constexpr std::size_t k_cells_between = 4096;  // two words of progress
+
 template <class IdType, class Range>
 std::vector<IdType> list(const Range& range, std::size_t count) {
   std::vector<IdType> ids;
@@ -59,7 +61,7 @@ class CellSplitter {
   const std::vector<FaceId>& faces() const { return faces_; }
   const std::vector<CellId>& cells() const { return cells_; }
 
-  void split(RefinementStep& step) {
+  void split(RefinementStep& step, const Progress& progress) {
     reserve();
     for (std::size_t i = 0; i < fine_vertex_count(); ++i) builder_.add_vertex();
     add_edges();
@@ -69,6 +71,7 @@ class CellSplitter {
     step.corner_from_fine.raw().reserve(incidence_.cell_vertex_count());
     std::size_t first_use = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (i % k_cells_between == 0) progress.at(static_cast<double>(i) / static_cast<double>(cells_.size()));
       collect_sides(cells_[i]);
       add_inner_faces(VertexId{first_cell_point() + i}, first_use);
       add_cells(cells_[i], step);
@@ -225,16 +228,18 @@ class CellSplitter {
 
 }  // namespace
 
-RefinementStep refine(const Solid& coarse, RuleSet rule_set) {
+RefinementStep refine(const Solid& coarse, RuleSet rule_set, const Progress& progress) {
+  progress.at(0);
   const PointRules rules(coarse, rule_set);
   CellSplitter splitter(coarse, rules.incidence());
   RefinementStep step;
   step.first_edge_point = splitter.first_edge_point();
   step.first_face_point = splitter.first_face_point();
   step.first_cell_point = splitter.first_cell_point();
-  splitter.split(step);
-  step.stencils =
-      assemble_rows(splitter.fine_vertex_count(), coarse.vertex_capacity(), [&](std::size_t i, RowBuilder& row) {
+  splitter.split(step, progress.part(0.2, 0.5));
+  step.stencils = assemble_rows(
+      splitter.fine_vertex_count(), coarse.vertex_capacity(),
+      [&](std::size_t i, RowBuilder& row) {
         if (i < step.first_edge_point)
           rules.add_vertex_point(splitter.vertices()[i], 1, row);
         else if (i < step.first_face_point)
@@ -243,7 +248,8 @@ RefinementStep refine(const Solid& coarse, RuleSet rule_set) {
           rules.add_face_point(splitter.faces()[i - step.first_face_point], 1, row);
         else
           rules.add_cell_point(splitter.cells()[i - step.first_cell_point], 1, row);
-      });
+      },
+      progress.part(0.5, 1));
   return step;
 }
 

@@ -2,6 +2,7 @@
 // One refinement step (paper 004 §3.1, METHODS §1): every cell splits about its centroid, a corner with k edges
 // giving a cell of 2k quadrilaterals. The step is linear in the control points, so it is returned as stencils.
 
+#include "subdiv/progress.h"
 #include "subdiv/rule_set.h"
 #include "subdiv/solid.h"
 #include "subdiv/stencils.h"
@@ -23,6 +24,10 @@ struct RefinementStep {
 /// @throws Error (bad_topology) naming an edge inside with fewer than 3 faces, a smooth vertex of the skin with
 /// fewer than 3 edges there, or an element that no cell holds; (unsupported) naming an edge or vertex inside that
 /// is sharp and on no sheet. Cost O(cell corners); the result does not depend on the number of threads.
-[[nodiscard]] RefinementStep refine(const Solid& coarse, RuleSet rules = RuleSet::maccracken_joy);
+[[nodiscard]] RefinementStep refine(const Solid& coarse, RuleSet rules = RuleSet::maccracken_joy,
+                                    const Progress& progress = {});
+
+/// compose() of stencils.h for large ones, which tells how far it has got.
+[[nodiscard]] Stencils compose(const Stencils& fine, const Stencils& coarse, const Progress& progress);
 
 }  // namespace argil::subdiv

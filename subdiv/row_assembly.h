@@ -9,6 +9,7 @@
 
 #include "subdiv/ids.h"
 #include "subdiv/parallel.h"
+#include "subdiv/progress.h"
 #include "subdiv/stencils.h"
 
 namespace argil::subdiv {
@@ -54,14 +55,15 @@ class RowBuilder {
   std::vector<std::uint32_t> columns_;
 };
 
-/// Stencils whose row i is what fill(i, RowBuilder&) adds.
+/// Stencils whose row i is what fill(i, RowBuilder&) adds; fill runs in several threads at once.
 template <class Fill>
-[[nodiscard]] Stencils assemble_rows(std::size_t row_count, std::size_t column_count, const Fill& fill) {
-  constexpr std::size_t k_chunk = 1024;
+[[nodiscard]] Stencils assemble_rows(std::size_t row_count, std::size_t column_count, const Fill& fill,
+                                     const Progress& progress = {}) {
+  constexpr std::size_t k_chunk = 1024, k_slices = 32;
   const std::size_t chunk_count = (row_count + k_chunk - 1) / k_chunk;
   std::vector<Stencils> chunks(chunk_count);
   tbb::enumerable_thread_specific<RowBuilder> builders([&] { return RowBuilder(column_count); });
-  parallel_for(chunk_count, 1, [&](std::size_t c) {
+  const auto assemble_chunk = [&](std::size_t c) {
     RowBuilder& builder = builders.local();
     const std::size_t end = std::min(row_count, (c + 1) * k_chunk);
     chunks[c].offsets.reserve(k_chunk + 1);
@@ -69,7 +71,15 @@ template <class Fill>
       fill(i, builder);
       builder.finish_row(chunks[c]);
     }
-  });
+  };
+  // In slices where somebody listens, between which it is told.
+  const std::size_t slice =
+      progress.is_heard() ? std::max<std::size_t>(8, (chunk_count + k_slices - 1) / k_slices) : chunk_count;
+  for (std::size_t begin = 0; begin < chunk_count; begin += slice) {
+    const std::size_t end = std::min(chunk_count, begin + slice);
+    parallel_for(end - begin, 1, [&](std::size_t c) { assemble_chunk(begin + c); });
+    progress.at(static_cast<double>(end) / static_cast<double>(chunk_count));
+  }
 
   Stencils result;
   result.column_count = column_count;

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "subdiv/refinement_step.h"
 #include "subdiv/row_assembly.h"
 
 namespace argil::subdiv {
@@ -72,11 +73,18 @@ Eigen::VectorXd apply(const Stencils& stencils, const Eigen::VectorXd& values) {
 }
 
 Stencils compose(const Stencils& fine, const Stencils& coarse) {
+  return compose(fine, coarse, {});
+}
+
+Stencils compose(const Stencils& fine, const Stencils& coarse, const Progress& progress) {
   assert(fine.column_count == coarse.row_count());
-  return assemble_rows(fine.row_count(), coarse.column_count, [&](std::size_t i, RowBuilder& row) {
-    const StencilRow from = fine.row(i);
-    for (std::size_t j = 0; j < from.columns.size(); ++j) row.add(coarse.row(from.columns[j]), from.weights[j]);
-  });
+  return assemble_rows(
+      fine.row_count(), coarse.column_count,
+      [&](std::size_t i, RowBuilder& row) {
+        const StencilRow from = fine.row(i);
+        for (std::size_t j = 0; j < from.columns.size(); ++j) row.add(coarse.row(from.columns[j]), from.weights[j]);
+      },
+      progress);
 }
 
 Stencils transpose(const Stencils& stencils) {

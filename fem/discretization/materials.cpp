@@ -10,6 +10,7 @@ namespace {
 
 /// A pyramid below this share of its cell's volume gives no stiffness (METHODS §3).
 constexpr double k_flat_pyramid = 1e-3;
+constexpr std::size_t k_elements_between = 512;  // two words of progress
 
 /// [point * corner_count + corner]: weights of the corners' values at a kind's quadrature points.
 std::vector<double> corner_weights(const ElementKind& kind) {
@@ -103,7 +104,7 @@ int field_corner_count(const ElementKind& kind) {
   return kind.node_count > 8 ? 8 : kind.node_count;
 }
 
-void set_materials(Discretization& discretization, const NodalFields& fields) {
+void set_materials(Discretization& discretization, const NodalFields& fields, const Progress& progress) {
   const subdiv::Stencils& rows = discretization.field_samples.rows;
   const auto sampled = [&](const Eigen::VectorXd& values) {
     return values.size() > 0 ? subdiv::apply(rows, values) : Eigen::VectorXd();
@@ -124,12 +125,15 @@ void set_materials(Discretization& discretization, const NodalFields& fields) {
   const bool damped = fields.damping.size() > 0 && !fields.damping.isZero(0);
   discretization.rest_volume = discretization.total_mass = 0;
   discretization.elements.pyramids_without_stiffness = 0;
+  std::size_t count = 0, done = 0;
+  for (const ElementBlock& block : discretization.blocks) count += block.element_count();
   for (std::size_t b = 0; b < discretization.blocks.size(); ++b) {
     ElementBlock& block = discretization.blocks[b];
     interpolate(block, discretization.field_samples.corners[b], samples);
     if (block.kind == &pyramid()) discretization.elements.pyramids_without_stiffness += soften_flat_pyramids(block);
     const auto n = static_cast<std::size_t>(block.kind->node_count);
     for (std::size_t e = 0; e < block.element_count(); ++e) {
+      if (done++ % k_elements_between == 0) progress.at(static_cast<double>(done) / static_cast<double>(count));
       element.gather({block.nodes.data() + e * n, n});
       element_mass.setZero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
       element_damping = element_mass;

@@ -11,6 +11,6 @@ namespace argil::fem {
 /// Fills the material arrays of all blocks, marks the pyramids without stiffness, and assembles mass, damping and
 /// totals. Rest geometry and field samples must be there.
 /// @throws what lame() throws.
-void set_materials(Discretization& discretization, const NodalFields& fields);
+void set_materials(Discretization& discretization, const NodalFields& fields, const Progress& progress = {});
 
 }  // namespace argil::fem

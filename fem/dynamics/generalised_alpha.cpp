@@ -21,7 +21,7 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   const Divisors divisors{(1 - alpha_f) * beta * h * h / (1 - alpha_m), beta * h / gamma};
 
   const double start = clock ? clock() : 0;
-  prepare(divisors, loads.springs);
+  prepare(divisors, loads.springs, options.progress.part(0, 0.3));
   StepReport report;
   if (clock) report.ms_tangent += 1e3 * (clock() - start);
 
@@ -58,7 +58,9 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   const Eigen::Matrix3Xd led_end = (led_balance - alpha_m * led_accelerations) / (1 - alpha_m);
   set_led_columns(loads.led, led_q, q);
   set_led_columns(loads.led, led_q - ((1 - alpha_f) * beta * h * h) * led_end, goal.anchor);
-  minimise(goal, *preconditioner, newton_options(options), q, report, clock);
+  NewtonOptions newton = newton_options(options);
+  newton.progress = options.progress.part(0.3, 1);
+  minimise(goal, *preconditioner, newton, q, report, clock);
 
   const Eigen::Matrix3Xd next_accelerations = (q - goal.anchor) / ((1 - alpha_f) * beta * h * h);
   Eigen::Matrix3Xd next_positions = (q - alpha_f * state.positions) / (1 - alpha_f);

@@ -88,7 +88,7 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
   const bool one_solve = options.method == Method::semi_implicit;
   const double c = bdf2 ? 2 * h / 3 : h;
   const double start = clock ? clock() : 0;
-  prepare({c * c, c}, loads.springs);
+  prepare({c * c, c}, loads.springs, options.progress.part(0, 0.3));
   const double prepared = clock ? 1e3 * (clock() - start) : 0;
 
   Eigen::Matrix3Xd velocity = state.velocities;  // v̄
@@ -125,6 +125,7 @@ StepReport Integrator::Impl::incremental_step(const Loads& loads, BodyState& sta
   StepReport report;
   report.ms_tangent += prepared;
   NewtonOptions newton = newton_options(options);
+  newton.progress = options.progress.part(0.3, 1);
   if (one_solve) {
     newton.cap = 1;
     newton.tolerance = 0;

@@ -11,6 +11,7 @@
 #include "fem/dynamics/method.h"
 #include "fem/solvers/preconditioner.h"
 #include "fem/system.h"
+#include "subdiv/progress.h"
 
 namespace argil::fem {
 
@@ -22,6 +23,7 @@ struct StepOptions {
   double spectral_radius = 0.8;    // of generalised-α at infinite frequency, in [0, 1]: what is left after a step
   double linear_tolerance = 1e-4;  // PCG, relative residual
   int linear_cap = 2000;
+  Progress progress{};  // of a step; a listener that throws leaves the state as it was
 };
 
 /// What one step did; milliseconds by part are measured by the caller's clock, if it gives one.

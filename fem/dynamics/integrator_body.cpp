@@ -64,12 +64,13 @@ ViscousDamping* Integrator::Impl::stiffness_damping() {
   return viscous->present() ? &*viscous : nullptr;
 }
 
-void Integrator::Impl::prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs) {
+void Integrator::Impl::prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs,
+                               const Progress& progress) {
   find_free();
   if (preconditioner && key_.fits(divisors, springs)) return;
   columns.forget();
   const auto make_rest = [&](bool with_stiffness) {
-    rest = rest_operator(system, with_stiffness);
+    rest = rest_operator(system, with_stiffness, progress.of("reducing the stiffness"));
     viscous_rest.reset();
   };
   SolverInputs inputs{3 * system.rows->column_count, 1, 0};
@@ -85,6 +86,7 @@ void Integrator::Impl::prepare(const Divisors& divisors, const std::vector<Ancho
     viscous_rest = reduce_elements(
         *system.rows, [&](const Tangent::Visit& visit) { viscous->element_matrices(visit); },
         rest->stiffness.size() > 0);
+  progress.at(1);  // the last word: what follows belongs together
   if (divisors.mass > 0) {
     inertia = *system.mass / divisors.mass;
     if (system.damping) inertia += *system.damping / divisors.damping;

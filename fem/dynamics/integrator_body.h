@@ -50,7 +50,7 @@ struct Integrator::Impl {
   void forget_values();  // of forces and energy
 
   /// Makes what implicit steps with these divisors need, unless it is there.
-  void prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs);
+  void prepare(const Divisors& divisors, const std::vector<AnchorSpring>& springs, const Progress& progress);
   const MassFactor& factored_mass(double damping_share);
   /// Damping by stiffness, null if there is none.
   ViscousDamping* stiffness_damping();

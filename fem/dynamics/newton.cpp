@@ -148,7 +148,9 @@ class DirectionSolver {
                   StepReport& report, Clock clock)
       : potential_(potential), preconditioner_(preconditioner), options_(options), report_(report), clock_(clock) {}
 
-  const Eigen::Matrix3Xd& operator()(const Eigen::Matrix3Xd& p, const Eigen::Matrix3Xd& force) {
+  /// `part`: the share of the whole that is done.
+  const Eigen::Matrix3Xd& operator()(const Eigen::Matrix3Xd& p, const Eigen::Matrix3Xd& force, double part) {
+    part_ = part;
     if (options_.full_tangent && solve(p, force, Projection::none)) return direction_;
     static_cast<void>(solve(p, force, Projection::positive_semidefinite));
     return direction_;
@@ -177,8 +179,8 @@ class DirectionSolver {
           if (potential_.contact) potential_.contact->add_product(d, result);
           mask(*potential_.free, result);
         },
-        corrected ? *corrected : preconditioner_, force, direction_, options_.linear_tolerance,
-        options_.linear_cap);
+        corrected ? *corrected : preconditioner_, force, direction_, options_.linear_tolerance, options_.linear_cap,
+        options_.progress.part(part_, part_ + 0.8 * (1 - part_)));
     report_.linear_iterations += linear.iterations;
     return !linear.negative_curvature;
   }
@@ -188,6 +190,7 @@ class DirectionSolver {
   const NewtonOptions& options_;
   StepReport& report_;
   Clock clock_;
+  double part_ = 0;
   Eigen::Matrix3Xd direction_, node_direction_, node_product_, product_;
 };
 
@@ -204,7 +207,7 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     Stopwatch watch(clock, report.ms_forces);
     forces = potential.forces(p);
   }
-  double residual = forces.total.norm();
+  double residual = forces.total.norm(), done = 0;
   const double first = residual;
   report.preconditioner = preconditioner.kind();
   report.converged = false;
@@ -219,7 +222,10 @@ void minimise(const Potential& potential, const Preconditioner& preconditioner, 
     }
     if (iteration == options.cap) return;
     ++report.newton_iterations;
-    const Eigen::Matrix3Xd& direction = solve(p, forces.total);
+    // Of the iterations allowed most are seldom needed: each is half of what is left.
+    options.progress.at(done);
+    const Eigen::Matrix3Xd& direction = solve(p, forces.total, done);
+    done += 0.5 * (1 - done);
 
     Stopwatch watch(clock, report.ms_line_search);
     const double descent = -dot(forces.total, direction);  // Φ's slope along the direction

@@ -51,6 +51,7 @@ struct NewtonOptions {
   bool full_tangent = false;   // try the tangent as it is, and project it only where it is indefinite
   double linear_tolerance = 1e-4;
   int linear_cap = 2000;
+  Progress progress{};
 };
 
 /// Minimises from `p`, which moves to the last iterate; counts and times are added to `report`.

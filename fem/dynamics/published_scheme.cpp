@@ -65,8 +65,10 @@ StepReport Integrator::Impl::published_step(const Loads& loads, BodyState& state
   BodyState next = state;
   StepReport report;
   report.ms_tangent = clock ? 1e3 * (clock() - start) : 0;
-  for (int i = 0; i < static_cast<int>(parts); ++i)
+  for (int i = 0; i < static_cast<int>(parts); ++i) {
+    options.progress.at(i / parts);
     append(report, explicit_step(loads, next, h / parts, part, clock));
+  }
   next.time = state.time + h;
   state = std::move(next);
   return report;

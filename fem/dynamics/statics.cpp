@@ -24,7 +24,8 @@ StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const 
     contact->set_state(state.positions);
     for (AnchorSpring& spring : contact->springs()) held.springs.push_back(std::move(spring));
   }
-  body.prepare({}, held.springs);
+  const Progress preparing = options.progress.part(0, 0.3), solving = options.progress.part(0.3, 1);
+  body.prepare({}, held.springs, preparing);
   const Eigen::Matrix3Xd forces = body.load_forces(loads);
   check_rigid_motions(body.system, held, body.rest->touched, state.positions, forces);
 
@@ -38,7 +39,8 @@ StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const 
   newton.linear_cap = options.linear_cap;
 
   /// Equilibrium under a share of the load; the springs' targets move from where they hold the body now.
-  const auto solve = [&](double share, Eigen::Matrix3Xd& p) {
+  const auto solve = [&](double share, Eigen::Matrix3Xd& p, const Progress& progress) {
+    newton.progress = progress;
     std::vector<AnchorSpring> springs = loads.springs;
     for (AnchorSpring& spring : springs) {
       const Eigen::Vector3d from = held_point(spring, state.positions);
@@ -51,13 +53,13 @@ StepReport Integrator::solve_static(const Loads& loads, BodyState& state, const 
     return report.converged;
   };
   Eigen::Matrix3Xd p = state.positions;
-  if (!solve(1.0, p)) {
+  if (!solve(1.0, p, solving)) {
     p = state.positions;
     double share = 0, increment = 0.25;
     while (share < 1) {
       Eigen::Matrix3Xd trial = p;
       const double next = std::min(1.0, share + increment);
-      if (solve(next, trial)) {
+      if (solve(next, trial, solving.part(share, next))) {
         p = std::move(trial);
         share = next;
         continue;

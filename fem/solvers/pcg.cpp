@@ -1,5 +1,8 @@
 #include "fem/solvers/pcg.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace argil::fem {
 
 namespace {
@@ -11,7 +14,8 @@ double dot(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 }  // namespace
 
 LinearOutcome pcg(const LinearOperator& matrix, const Preconditioner& preconditioner,
-                  const Eigen::Matrix3Xd& right_hand_side, Eigen::Matrix3Xd& solution, double tolerance, int cap) {
+                  const Eigen::Matrix3Xd& right_hand_side, Eigen::Matrix3Xd& solution, double tolerance, int cap,
+                  const Progress& progress) {
   LinearOutcome outcome;
   solution.setZero(3, right_hand_side.cols());
   const double start = right_hand_side.norm();
@@ -24,7 +28,9 @@ LinearOutcome pcg(const LinearOperator& matrix, const Preconditioner& preconditi
   Eigen::Matrix3Xd direction = preconditioned;
   double weighted = dot(residual, preconditioned);
   outcome.residual = 1;
+  double digits = 0;  // of the residual, as a share of those asked for
   while (outcome.iterations < cap) {
+    progress.at(digits);
     matrix(direction, product);
     ++outcome.iterations;
     const double curvature = dot(direction, product);
@@ -41,6 +47,7 @@ LinearOutcome pcg(const LinearOperator& matrix, const Preconditioner& preconditi
       outcome.converged = true;
       return outcome;
     }
+    digits = std::clamp(std::log(outcome.residual) / std::log(tolerance), digits, 1.0);
     preconditioner.apply(residual, preconditioned);
     const double next = dot(residual, preconditioned);
     direction = preconditioned + (next / weighted) * direction;

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "fem/solvers/preconditioner.h"
+#include "subdiv/progress.h"
 
 namespace argil::fem {
 
@@ -21,9 +22,9 @@ struct LinearOutcome {
 
 /// Solves matrix · solution = right_hand_side from zero, to a relative residual. At the first direction of
 /// non-positive curvature it stops; if that is the first of all, the solution is the preconditioned right-hand
-/// side.
+/// side. What is told is how many of the digits asked for are there.
 [[nodiscard]] LinearOutcome pcg(const LinearOperator& matrix, const Preconditioner& preconditioner,
                                 const Eigen::Matrix3Xd& right_hand_side, Eigen::Matrix3Xd& solution,
-                                double tolerance, int cap);
+                                double tolerance, int cap, const Progress& progress = {});
 
 }  // namespace argil::fem

@@ -28,6 +28,7 @@ void ElementReduction::gather(std::span<const std::uint32_t> nodes) {
 
 namespace {
 
+constexpr std::size_t k_elements_between = 256;  // two words of progress
 constexpr std::array<std::array<int, 2>, 6> k_axis_pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 0}, {2, 0}, {2, 1}}};
 
 subdiv::Stencils named_rows(const subdiv::Stencils& rows, const std::vector<std::uint8_t>& named) {
@@ -214,12 +215,22 @@ RestOperator reduce_elements(const subdiv::Stencils& rows, const ElementSource& 
   return result;
 }
 
-RestOperator rest_operator(const System& system, bool with_stiffness) {
+RestOperator rest_operator(const System& system, bool with_stiffness, const Progress& progress) {
   assert(system.rest_nodes != nullptr);
   const ForceModel& model = system.rest_model ? *system.rest_model : *system.model;
   const auto tangent = model.tangent(*system.rest_nodes, Projection::none);
+  std::size_t count = 0, done = 0;
+  for (const ElementBlock& block : system.blocks) count += block.element_count();
   return reduce_elements(
-      *system.rows, [&](const Tangent::Visit& visit) { tangent->element_tangents(visit); }, with_stiffness);
+      *system.rows,
+      [&](const Tangent::Visit& visit) {
+        tangent->element_tangents([&](std::span<const std::uint32_t> nodes, const Eigen::MatrixXd& stiffness) {
+          if (done++ % k_elements_between == 0)
+            progress.at(std::min(1.0, static_cast<double>(done) / static_cast<double>(count)));
+          visit(nodes, stiffness);
+        });
+      },
+      with_stiffness);
 }
 
 void add_scaled(RestOperator& to, const RestOperator& other, double factor) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/system.h"
+#include "subdiv/progress.h"
 
 namespace argil::fem {
 
@@ -19,7 +20,7 @@ struct RestOperator {
 
 /// Cost O(elements · (nodes · columns + columns²)), columns = control points that an element depends on; the full
 /// matrix only if `with_stiffness`.
-[[nodiscard]] RestOperator rest_operator(const System& system, bool with_stiffness);
+[[nodiscard]] RestOperator rest_operator(const System& system, bool with_stiffness, const Progress& progress = {});
 /// The same of any element matrices, in nodes that `rows` gives.
 using ElementSource = std::function<void(const Tangent::Visit& visit)>;
 [[nodiscard]] RestOperator reduce_elements(const subdiv::Stencils& rows, const ElementSource& source,

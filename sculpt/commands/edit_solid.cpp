@@ -76,7 +76,7 @@ void edit_solid(Session& session, const std::function<Edit(Transaction&, const E
 
   std::vector<std::uint32_t> node_map;  // empty on the control solid: nodes are its vertices
   if (refined) {
-    const Refinement after = refine_to_level(solid, next.level, next.rules);
+    const Refinement after = refine_to_level(solid, next.level, next.rules, session.progress_of("refining"));
     node_map = nodes_after_edit(*before, after);
     next.fields = fields_after_edit(*next.fields, node_map, after, copied_nodes(after, made));
   }

@@ -14,8 +14,11 @@ namespace {
 using namespace subdiv;
 
 void open(Session& session, const Arguments& arguments) {
-  io::VolumeMesh mesh = io::read_volume_mesh(session.path_to_read(arguments.word("file")));
+  const std::filesystem::path file = session.path_to_read(arguments.word("file"));
+  session.progress_of("reading").at(0);
+  io::VolumeMesh mesh = io::read_volume_mesh(file);
   check_cells(session, static_cast<double>(mesh.cells.cell_count()));
+  session.progress_of("joining cells").at(0);
   Imported imported = import_solid(mesh, arguments.has("repair"));
   auto sets = std::make_shared<std::map<std::string, Selection>>(imported_sets(mesh, imported));
   for (const std::string& note : imported.notes) session.print(note);

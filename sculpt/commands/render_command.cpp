@@ -171,8 +171,7 @@ PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
     const std::vector<double>& box = arguments.numbers("frame");
     if (box[0] == box[3] && box[1] == box[4] && box[2] == box[5])
       throw Error(ErrorCode::bad_input, "the two corners of the frame are the same; `frame 0 0 0 1 1 1` is a cube");
-    options.frame = {Eigen::Vector3d(box[0], box[1], box[2]).cast<float>(),
-                     Eigen::Vector3d(box[3], box[4], box[5]).cast<float>()};
+    options.frame = box_frame({box[0], box[1], box[2]}, {box[3], box[4], box[5]});
   }
   options.view_from = arguments.vector("from", options.view_from);
   options.zoom = arguments.number("zoom", 1);
@@ -187,7 +186,7 @@ PictureOptions read_view(const Arguments& arguments, PictureRequest& request) {
 
 void render(Session& session, const Arguments& arguments) {
   require_solid(session);
-  const RenderRequest request = read_render(session, arguments);
+  RenderRequest request = read_render(session, arguments);
   const std::string& name = arguments.word("file");
   if (!name.ends_with(".png"))
     throw Error(ErrorCode::bad_input, fmt::format("a picture is a .png file, not '{}'", name));
@@ -198,6 +197,7 @@ void render(Session& session, const Arguments& arguments) {
     session.print(fmt::format("{} skipped: there is no renderer", name));
     return;
   }
+  request.options.progress = session.progress_of("drawing");
   const Picture picture = make_picture(*renderer, session.document(), request);
   io::write_png(path, picture.width, picture.height, picture.rgba);
 }
@@ -223,10 +223,8 @@ RenderRequest read_render(const Session& session, const Arguments& arguments) {
   return request;
 }
 
-Picture make_picture(Renderer& renderer, const Document& document, const RenderRequest& request,
-                     const std::vector<Eigen::Vector3f>& framed) {
-  Scene scene = make_scene(document, request.picture);
-  scene.framed = framed;
+Picture make_picture(Renderer& renderer, const Document& document, const RenderRequest& request) {
+  const Scene scene = make_scene(document, request.picture);
   return request.beside ? with_cage_beside(renderer, document, scene, request.options)
                         : renderer.render(scene, request.options);
 }

@@ -16,8 +16,7 @@ struct RenderRequest {
 /// throws.
 [[nodiscard]] RenderRequest read_render(const Session& session, const Arguments& arguments);
 
-/// The document as it is now; `framed` as in Scene.
-[[nodiscard]] Picture make_picture(Renderer& renderer, const Document& document, const RenderRequest& request,
-                                   const std::vector<Eigen::Vector3f>& framed = {});
+/// The document as it is now.
+[[nodiscard]] Picture make_picture(Renderer& renderer, const Document& document, const RenderRequest& request);
 
 }  // namespace argil::sculpt

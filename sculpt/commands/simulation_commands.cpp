@@ -66,6 +66,7 @@ void solve(Session& session, const Arguments&) {
   fem::StepOptions options;
   options.linear_tolerance = 1e-9;
   options.newton_tolerance = 1e-8;
+  options.progress = session.progress_of("finding the equilibrium");
   fem::Loads loads = document.loads();
   loads.contact = contact_at(document, motion->time);
   const fem::StepReport report =

@@ -170,7 +170,7 @@ TEST(FeltForce, FillsTheGroundOfThePictureByItsShare) {
   EXPECT_THAT(renderer.last_scene.felt->text, HasSubstr("5 N"));
   EXPECT_EQ(renderer.last_options.title, "a pull");
   ASSERT_TRUE(renderer.last_options.frame);
-  EXPECT_EQ((*renderer.last_options.frame)[1], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(renderer.last_options.frame->places.back(), Eigen::Vector3f(1, 2, 3));
   session.run({"step", "render a.png size 64 48 felt 20"});
   EXPECT_EQ(renderer.last_scene.felt->share, 0);
 }

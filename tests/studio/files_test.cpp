@@ -225,7 +225,7 @@ TEST(Files, LongWorkShowsAndIsCancelled) {
   ASSERT_TRUE(comes([&] { return workshop.latest()->scene != nullptr; }));
   workshop.run("force 0 0 5 where z > 0.49");
   workshop.run("step 100000");
-  std::shared_ptr<const Workshop::Work> work;
+  std::shared_ptr<const Work> work;
   ASSERT_TRUE(comes([&] { return (work = workshop.work()) && work->seconds > 0.1; }));
   EXPECT_GE(work->share, 0);
   EXPECT_LT(work->share, 0.9);

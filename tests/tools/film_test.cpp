@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdlib>
+#include <sstream>
 
 #include "io/image.h"
 #include "subdiv/error.h"
@@ -45,6 +46,23 @@ TEST(Films, AreNumberedPicturesWithoutAnyProgram) {
   film.finish();
   EXPECT_THAT(folder.files(), testing::ElementsAre("walk_0000.png", "walk_0001.png", "walk_0002.png"));
   EXPECT_EQ(io::read_png(folder / "walk_0002.png").rgba, picture(2).rgba);
+}
+
+// Numbered pictures as well are there all together or not at all; those of an earlier film stay until then.
+TEST(Films, LeaveTheFolderAsItWasWherePicturesAreNotFinished) {
+  const TemporaryFolder folder;
+  {
+    FilmWriter film(folder / "walk.png");
+    for (int i = 0; i < 3; ++i) film.add(picture(i));
+    film.finish();
+  }
+  const std::string before = tests::read_bytes(folder / "walk_0001.png");
+  {
+    FilmWriter film(folder / "walk.png");
+    for (int i = 0; i < 5; ++i) film.add(picture(i + 3));
+  }
+  EXPECT_THAT(folder.files(), testing::ElementsAre("walk_0000.png", "walk_0001.png", "walk_0002.png"));
+  EXPECT_EQ(tests::read_bytes(folder / "walk_0001.png"), before);
 }
 
 TEST(Films, AreRefusedWithARemedy) {
@@ -158,6 +176,49 @@ TEST_F(MovieCommand, TurnsAboutTheLastShape) {
   EXPECT_THAT(run.out, HasSubstr("4 pictures"));
   // A cube looks alike from four sides, but for the light.
   EXPECT_NE(io::read_png(folder_ / "film/turn_0000.png").rgba, io::read_png(folder_ / "film/turn_0001.png").rgba);
+}
+
+TEST_F(MovieCommand, TellsHowFarItHasGot) {
+  const auto run = argil({"movie", "drop.argil", "--out", "film", "--file", "drop.png", "--fps", "20", "--with",
+                          "size 64 64 plain wire none"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("picture 4 of 4"));
+  EXPECT_THAT(run.err, HasSubstr("100 %"));
+  int last = -1;
+  std::istringstream lines(run.err);
+  for (std::string line; std::getline(lines, line);) {
+    const int share = std::stoi(line);
+    EXPECT_GT(share, last) << run.err;
+    last = share;
+  }
+  EXPECT_EQ(last, 100);
+  EXPECT_EQ(argil({"movie", "drop.argil", "--out", "film", "--file", "a.png", "--quiet"}).err, "");
+}
+
+// By SIGTERM, since shells have what they run in the background ignore Ctrl-C: the film has begun, and nothing of
+// it is left.
+TEST_F(MovieCommand, LeavesNothingWhereItIsInterrupted) {
+  folder_.write("long.argil",
+                "argil 1\nnew box 2 2 2 size 0.1 0.1 0.1\nlevels 1\ngravity 0 0 -9.81\nstep 100000 dt 1/60\n");
+  for (const std::string name : {"film.png", view::can_write_films() ? "film.mp4" : "again.png"}) {
+    // The turn of many pictures comes after a session of few steps.
+    const std::string script =
+        "'" + std::string(ARGIL_PROGRAM) + "' movie drop.argil --out film --file " + name +
+        " --turntable --seconds 500 --with 'size 64 64' 2>/dev/null & p=$!; " +
+        "while [ -z \"$(ls film 2>/dev/null)\" ]; do :; done; kill -TERM $p; wait $p; echo $?";
+    const auto run = tests::run_program("/bin/sh", {"-c", script}, folder_.path());
+    EXPECT_EQ(run.out, "143\n") << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "film")) << folder_.files().size();
+  }
+  // While the session still runs, too.
+  const auto run = tests::run_program(
+      "/bin/sh",
+      {"-c", "'" + std::string(ARGIL_PROGRAM) +
+                 "' movie long.argil --out other --file a.png 2>err & p=$!; while [ ! -s err ]; do :; done; "
+                 "kill -TERM $p; wait $p; echo $?"},
+      folder_.path());
+  EXPECT_EQ(run.out, "143\n") << run.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "other"));
 }
 
 TEST_F(MovieCommand, SaysWhatIsWrong) {

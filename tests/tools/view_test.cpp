@@ -257,15 +257,31 @@ TEST(View, TheGroundIsTheMoreSaturatedTheMoreIsFelt) {
 }
 
 TEST(View, AFrameHoldsTheCameraWhateverTheSceneDoes) {
-  const Scene small = scene_of(subdiv::box_grid(1, 1, 1, {1, 1, 1}));
+  Scene small = scene_of(subdiv::box_grid(1, 1, 1, {1, 1, 1}));
   Scene large = small;
   large.cage_points.push_back({4, 4, 4});
   PictureOptions how = options(120, 100);
   EXPECT_NE(covered_box(renderer().render(small, how)), covered_box(renderer().render(large, how)));
-  how.frame = {Eigen::Vector3f(-1, -1, -1), Eigen::Vector3f(2, 2, 2)};
+  how.frame = sculpt::box_frame({-1, -1, -1}, {2, 2, 2});
   const auto framed = covered_box(renderer().render(small, how)), same = covered_box(renderer().render(large, how));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(framed[i], same[i], 1);
-  how.frame = {Eigen::Vector3f(1, 1, 1), Eigen::Vector3f(1, 1, 1)};
+  // Beside a legend that gets wider the same places stay where they are, unless room is left for it.
+  small.legend = sculpt::SceneLegend{.title = "strain", .unit = "", .low = 0, .high = 1};
+  EXPECT_EQ(covered_box(renderer().render(small, how)), framed);
+  how.width = 400;
+  how.height = 300;
+  const auto filled = covered_box(renderer().render(small, how));
+  how.frame->leaves_room = true;
+  const auto beside = covered_box(renderer().render(small, how));
+  EXPECT_LT(beside[2], filled[2]);
+  // Numbers that get longer, and arrows and pins that come, move nothing.
+  small.legend = sculpt::SceneLegend{.title = "stress", .unit = "", .low = -20000, .high = 20000};
+  small.arrows.push_back({{0, 0, 0}, {0.1F, 0, 0}});
+  small.pins.push_back({0, 0, 0});
+  EXPECT_EQ(covered_box(renderer().render(small, how)), beside);
+  how.frame = sculpt::box_frame({1, 1, 1}, {1, 1, 1});
+  EXPECT_EQ(error_of(small, how), ErrorCode::bad_input);
+  how.frame->places.clear();
   EXPECT_EQ(error_of(small, how), ErrorCode::bad_input);
 }
 

@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "io/file_bytes.h"
 #include "sculpt/commands/render_request.h"
 #include "sculpt/recording.h"
+#include "sculpt/scene.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
+#include "tools/argil/interruption.h"
 #include "tools/argil/program.h"
+#include "tools/argil/progress_bar.h"
 #include "tools/view/film.h"
 #include "tools/view/offscreen_renderer.h"
 
@@ -16,7 +20,28 @@ namespace argil::tools {
 
 namespace {
 
-using Stepped = std::function<void(const sculpt::Document&)>;
+/// Tells of a film in shares that do not fall.
+class Teller {
+ public:
+  explicit Teller(const Progress::Listener& listener) : listener_(listener) {}
+  void tell(double share, const std::string& what) {
+    share_ = std::clamp(share, share_, 1.0);
+    if (listener_) listener_(share_, what.c_str());
+  }
+  /// As it was: for what only wants to know whether to go on.
+  void go_on() { tell(share_, what_); }
+  void picture_done(double from, long done, long of) {
+    what_ = fmt::format("picture {} of {}", done, of);
+    tell(from + (1 - from) * static_cast<double>(done) / static_cast<double>(of), what_);
+  }
+
+ private:
+  const Progress::Listener& listener_;
+  double share_ = 0;
+  std::string what_ = "the film";
+};
+
+constexpr double k_first_run = 0.25;  // of the work: the session without pictures
 
 sculpt::SessionOptions session_options(const MovieArguments& arguments, const std::filesystem::path& out) {
   sculpt::SessionOptions options;
@@ -33,10 +58,22 @@ struct Travel {
   long frames = 0;
 };
 
-Travel follow(const MovieArguments& arguments, const std::filesystem::path& out, const std::string& text) {
+/// The first run of the session tells of its part.
+void tell_run(sculpt::SessionOptions& options, Teller& teller) {
+  options.progress = [&teller](double share, const std::string& what) {
+    if (share >= 0)
+      teller.tell(k_first_run * share, what);
+    else
+      teller.go_on();
+  };
+}
+
+Travel follow(const MovieArguments& arguments, const std::filesystem::path& out, const std::string& text,
+              Teller& teller) {
   Travel travel;
   sculpt::FrameClock clock({1, arguments.rate}, 0);
   sculpt::SessionOptions options = session_options(arguments, out);
+  tell_run(options, teller);
   options.stepped = [&](const sculpt::Document& document) {
     const long due = clock.due(document.state().motion->time);
     if (due == 0) return;
@@ -57,43 +94,34 @@ sculpt::RenderRequest read_request(const sculpt::Session& session, const MovieAr
   return sculpt::read_render(session, sculpt::bind(sculpt::find_command(line), line));
 }
 
-class Progress {
- public:
-  Progress(bool quiet, long frames) : quiet_(quiet), frames_(frames) {}
-  void next() {
-    ++done_;
-    if (quiet_ || 10 * done_ / frames_ == 10 * (done_ - 1) / frames_) return;
-    std::fprintf(stderr, "%3ld %%  picture %ld of %ld\n", 100 * done_ / frames_, done_, frames_);
-  }
-
- private:
-  bool quiet_;
-  long frames_, done_ = 0;
-};
-
 void film_run(const MovieArguments& arguments, const std::filesystem::path& out, const std::string& text,
-              sculpt::Renderer& renderer, view::FilmWriter& film) {
-  const Travel travel = follow(arguments, out, text);
+              sculpt::Renderer& renderer, view::FilmWriter& film, Teller& teller) {
+  const Travel travel = follow(arguments, out, text, teller);
   if (travel.frames == 0)
     throw Error(ErrorCode::bad_input,
                 "the session takes no step of the simulation that would make a picture; "
                 "--turntable shows its last shape from all sides");
-  const std::vector<Eigen::Vector3f> framed = view::box_corners(travel.low, travel.high);
-  Progress progress(arguments.quiet, travel.frames);
+  sculpt::PictureFrame frame = sculpt::box_frame(travel.low, travel.high);
+  frame.leaves_room = true;
+  const Progress::Listener go_on = [&](double, const char*) { teller.go_on(); };
+  long done = 0;
   sculpt::FrameClock clock({1, arguments.rate}, 0);
   sculpt::SessionOptions options = session_options(arguments, out);
   std::optional<sculpt::RenderRequest> request;
   sculpt::Session* running = nullptr;
+  options.progress = [&](double, const std::string&) { teller.go_on(); };
   options.stepped = [&](const sculpt::Document& document) {
     const long due = clock.due(document.state().motion->time);
     if (due == 0) return;
     if (!request) request = read_request(*running, arguments);
     request->options.contact_shadow = false;  // it would lie under the body wherever that flies
     request->picture.tool_force.reset();      // that of a stroke which is over
-    const sculpt::Picture picture = sculpt::make_picture(renderer, document, *request, framed);
+    request->options.progress = Progress(go_on);
+    if (!request->options.frame) request->options.frame = frame;
+    const sculpt::Picture picture = sculpt::make_picture(renderer, document, *request);
     for (long i = 0; i < due; ++i) {
       film.add(picture);
-      progress.next();
+      teller.picture_done(k_first_run, ++done, travel.frames);
     }
   };
   sculpt::Session session(options);
@@ -102,51 +130,77 @@ void film_run(const MovieArguments& arguments, const std::filesystem::path& out,
 }
 
 void film_turn(const MovieArguments& arguments, const std::filesystem::path& out, const std::string& text,
-               sculpt::Renderer& renderer, view::FilmWriter& film) {
-  sculpt::Session session(session_options(arguments, out));
+               sculpt::Renderer& renderer, view::FilmWriter& film, Teller& teller) {
+  sculpt::SessionOptions options = session_options(arguments, out);
+  tell_run(options, teller);
+  sculpt::Session session(options);
   session.run_text(text, arguments.session.string());
   if (session.document().empty())
     throw Error(ErrorCode::bad_input, "the session makes no solid; begin it with `new box 2 2 2` or `open FILE`");
-  const sculpt::RenderRequest request = read_request(session, arguments);
+  sculpt::RenderRequest request = read_request(session, arguments);
   if (request.beside) throw Error(ErrorCode::bad_input, "a turntable shows one body; leave out beside");
   const auto frames = static_cast<int>(std::lround(std::max(1.0, arguments.seconds * arguments.rate)));
-  Progress progress(arguments.quiet, frames);
+  const Progress::Listener go_on = [&](double, const char*) { teller.go_on(); };
+  request.options.progress = Progress(go_on);
+  long done = 0;
   view::turntable(renderer, sculpt::make_scene(session.document(), request.picture), request.options, frames,
                   [&](const sculpt::Picture& picture) {
                     film.add(picture);
-                    progress.next();
-                    return true;
+                    teller.picture_done(k_first_run, ++done, frames);
                   });
 }
 
 }  // namespace
 
-int movie(const MovieArguments& arguments) {
+Movie make_movie(const MovieArguments& arguments, const std::string& session, const Progress::Listener& progress) {
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("out") / arguments.session.stem() : arguments.out;
-  const std::string text = io::read_file(arguments.session);
   view::FilmOptions film_options;
   film_options.rate = arguments.rate;
+  Movie made;
   std::string name = arguments.file;
   if (name.empty()) {
-    const bool can = view::can_write_films(film_options);
-    name = arguments.session.stem().string() + (can ? ".mp4" : ".png");
-    if (!can)
-      std::fprintf(stderr,
-                   "argil: there is no ffmpeg (Debian, Ubuntu: apt-get install ffmpeg); numbered pictures are "
-                   "written instead\n");
+    made.without_ffmpeg = !view::can_write_films(film_options);
+    name = arguments.session.stem().string() + (made.without_ffmpeg ? ".png" : ".mp4");
   }
   // As sessions write: beneath the folder only.
-  const std::filesystem::path path = sculpt::Session(session_options(arguments, out)).path_to_write(name);
-  view::FilmWriter film(path, film_options);
+  made.file = sculpt::Session(session_options(arguments, out)).path_to_write(name);
+  Teller teller(progress);
+  view::FilmWriter film(made.file, film_options);
   const auto renderer = view::make_offscreen_renderer();
   if (arguments.turntable)
-    film_turn(arguments, out, text, *renderer, film);
+    film_turn(arguments, out, session, *renderer, film, teller);
   else
-    film_run(arguments, out, text, *renderer, film);
+    film_run(arguments, out, session, *renderer, film, teller);
   film.finish();
-  if (!arguments.quiet)
-    std::printf("%zu pictures at %g a second in %s\n", film.count(), arguments.rate, path.string().c_str());
+  made.pictures = film.count();
+  return made;
+}
+
+int movie(const MovieArguments& arguments) {
+  const std::string session = io::read_file(arguments.session);
+  ProgressBar bar(arguments.quiet);
+  Interruption interruption;
+  try {
+    const Movie made = make_movie(arguments, session, [&](double share, const char* what) {
+      Interruption::check();
+      bar.update(share, what);
+    });
+    bar.clear();
+    if (made.without_ffmpeg)
+      std::fprintf(stderr,
+                   "argil: there is no ffmpeg (Debian, Ubuntu: apt-get install ffmpeg); numbered pictures were "
+                   "written instead\n");
+    if (!arguments.quiet)
+      std::printf("%zu pictures at %g a second in %s\n", made.pictures, arguments.rate, made.file.string().c_str());
+  } catch (const Cancelled&) {
+    bar.clear();
+    interruption.pass_on();
+    throw;
+  } catch (const Error&) {
+    bar.clear();
+    throw;
+  }
   return k_well;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sculpt/document.h"
+#include "subdiv/progress.h"
 #include "tools/argil/body.h"
 
 namespace argil::tools {
@@ -120,6 +121,15 @@ struct MovieArguments {
   sculpt::Limits limits;
   bool quiet = false;
 };
+struct Movie {
+  std::filesystem::path file;
+  std::size_t pictures = 0;
+  bool without_ffmpeg = false;  // that was not there: pictures are numbered
+};
+/// Makes a film of what a session's file holds, without printing. `progress` hears shares of all of it, 0 … 1 and
+/// never falling; what it throws ends the film, of which nothing stays then.
+Movie make_movie(const MovieArguments& arguments, const std::string& session, const Progress::Listener& progress);
+/// The same for a user at a terminal.
 int movie(const MovieArguments& arguments);
 
 struct StudioArguments {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include "sculpt/summary.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
+#include "tools/argil/progress_bar.h"
 #include "tools/view/offscreen_renderer.h"
 
 namespace argil::tools {
@@ -32,43 +32,6 @@ std::string read_text(const std::filesystem::path& path) {
                                                        path.string(), io::k_max_session_file >> 20));
   return io::read_file(path);
 }
-
-// A bar that is redrawn in a terminal, and a line every tenth elsewhere. Messages go above it.
-class ProgressBar {
- public:
-  explicit ProgressBar(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stderr)) != 0) {}
-  void message(const std::string& text) {
-    if (quiet_) return;
-    clear();
-    std::fprintf(stderr, "  %s\n", text.c_str());
-  }
-  void update(double fraction, const std::string& what) {
-    if (quiet_) return;
-    if (!terminal_) {
-      const int tenth = static_cast<int>(fraction * 10 + 1e-9);
-      if (tenth > last_tenth_) std::fprintf(stderr, "%3d %%  %s\n", 10 * tenth, what.c_str());
-      last_tenth_ = std::max(last_tenth_, tenth);
-      return;
-    }
-    const double now = seconds();
-    if (now - last_drawn_ < 0.05 && fraction < 1) return;
-    last_drawn_ = now;
-    const int width = 30, filled = static_cast<int>(fraction * width);
-    std::string bar;
-    for (int i = 0; i < width; ++i) bar += i < filled ? "█" : "░";
-    std::fprintf(stderr, "\r\x1b[2K%s %3.0f %%  %.60s", bar.c_str(), 100 * fraction, what.c_str());
-    drawn_ = true;
-  }
-  void clear() {
-    if (drawn_) std::fprintf(stderr, "\r\x1b[2K");
-    drawn_ = false;
-  }
-
- private:
-  bool quiet_, terminal_, drawn_ = false;
-  int last_tenth_ = -1;
-  double last_drawn_ = 0;
-};
 
 std::map<std::string, std::string> parsed_overrides(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> overrides;

@@ -55,20 +55,17 @@ std::function<void(argil::studio::Input&)> pen_input(devices::PenReader* pens) {
   };
 }
 
-std::string make_film(const std::filesystem::path& session, const std::filesystem::path& read_root,
-                      bool turntable) {
+std::string make_film(const argil::studio::FilmOrder& order, const Progress::Listener& progress) {
   MovieArguments arguments;
-  arguments.session = session;
-  arguments.read_root = read_root;
-  arguments.out = session.parent_path();
-  const char* const ending = view::can_write_films() ? ".mp4" : ".png";
-  arguments.file = (turntable ? std::string("turntable") : std::string("film")) + ending;
-  arguments.turntable = turntable;
-  arguments.quiet = true;
-  movie(arguments);
-  const std::string file = (arguments.out / arguments.file).string();
-  return view::can_write_films() ? "the film is " + file
-                                 : "there is no ffmpeg; its pictures are numbered beside " + file;
+  arguments.session = order.out / "journal.argil";
+  arguments.read_root = order.read_root;
+  arguments.out = order.out;
+  const bool has_ffmpeg = view::can_write_films();
+  arguments.file =
+      (order.turntable ? std::string("turntable") : std::string("film")) + (has_ffmpeg ? ".mp4" : ".png");
+  arguments.turntable = order.turntable;
+  const std::string file = make_movie(arguments, order.session, progress).file.string();
+  return has_ffmpeg ? "the film is " + file : "there is no ffmpeg; its pictures are numbered beside " + file;
 }
 
 // Beside an installed program, else where it was built from.

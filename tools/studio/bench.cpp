@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "subdiv/error.h"
 
@@ -11,26 +12,48 @@ namespace argil::studio {
 namespace {
 
 constexpr std::size_t k_messages = 40;
+constexpr const char* k_journal = "journal.argil";
 
 }  // namespace
 
 Bench::Bench(BenchOptions options)
     : options_(std::move(options)),
-      keeping_(options_.out),
-      recent_(options_.settings.empty() ? options_.settings : options_.settings / "recent") {
-  shown_recent_ = std::make_shared<const std::vector<std::filesystem::path>>(recent_.all());
-  begin_session(".");
+      filing_(options_.out, options_.settings, options_.samples),
+      previewer_([this] {
+        if (on_news) on_news();
+      }),
+      darkroom_(options_.film, [this] {
+        if (on_news) on_news();
+      }) {
+  sitting_ = new_sitting(".", k_journal);
+  mark_saved({});
 }
 
 Bench::~Bench() = default;
 
-void Bench::begin_session(const std::filesystem::path& read_root) {
-  stroke_.reset();
-  session_.reset();  // closes its journal before the next one takes the name
-  keeping_.set_aside();
+void Bench::start_beside() {
+  previewer_.start();
+  darkroom_.start();
+}
+
+void Bench::stop_beside() {
+  previewer_.stop();
+  darkroom_.stop();
+}
+
+bool Bench::has_changed() const {
+  return changed_ || filing_.has_changed() || previewer_.has_changed() || darkroom_.has_news();
+}
+
+void Bench::show_all_anew() {
+  changed_ = whole_ = history_changed_ = shade_again_ = true;
+}
+
+Sitting Bench::new_sitting(const std::filesystem::path& read_root, const std::string& journal) {
   sculpt::SessionOptions session;
   session.read_root = read_root;
-  session.out = keeping_.folder();
+  session.out = filing_.folder();
+  session.journal = journal;
   session.limits = options_.limits;
   session.renderer = options_.renderer;
   session.clock = options_.clock;
@@ -38,21 +61,54 @@ void Bench::begin_session(const std::filesystem::path& read_root) {
     const bool guard = text.starts_with("guard") || text.starts_with("the body is frozen");
     say(guard ? MessageKind::warning : MessageKind::note, text);
   };
-  session.progress = [this](double share, const std::string& what) { go_on(share, what); };
-  session_ = std::make_unique<sculpt::Session>(std::move(session));
+  session.progress = [this](double share, const std::string& what) {
+    if (file_lines_ == 0) return go_on(share, what);
+    go_on((static_cast<double>(file_line_) + std::max(0.0, share)) / static_cast<double>(file_lines_), what);
+  };
+  Sitting next;
+  next.session = std::make_unique<sculpt::Session>(std::move(session));
+  next.solids = sitting_.solids;
+  next.tool_lines = sitting_.tool_lines;
+  return next;
+}
+
+void Bench::load(const std::filesystem::path& read_root, const std::function<void()>& fill) {
+  if (stroke_) end_stroke(false);
   preview({});
-  marks_.clear();
-  history_.clear();
-  lines_ = 0;
-  mark_saved({});
-  playing_ = played_last_ = false;
-  missed_ticks_ = 0;
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
+  set_playing(false);
+  // Until all is there, the journal of the session before stays the journal.
+  Sitting before = std::exchange(sitting_, new_sitting(read_root, "opening.argil"));
+  const auto take_over = [&] {
+    before.session.reset();  // closes its journal before the next one takes the name
+    filing_.set_aside();
+    session().rename_journal(k_journal);
+    filing_.begun(read_root);
+    played_last_ = false;
+    missed_ticks_ = 0;
+    show_all_anew();
+  };
+  try {
+    fill();
+  } catch (const Cancelled&) {
+    std::error_code ignored;
+    const std::filesystem::path half_read = session().journal_path();
+    sitting_ = std::move(before);
+    std::filesystem::remove(half_read, ignored);
+    show_all_anew();
+    throw;
+  } catch (const Error&) {
+    take_over();
+    throw;
+  }
+  take_over();
 }
 
 void Bench::go_on(double share, const std::string& what) const {
-  if (on_progress && !on_progress(share, what))
-    throw Error(ErrorCode::refused, "it was cancelled, and has changed nothing");
+  if (on_progress && !on_progress(share, what)) throw Cancelled();
+}
+
+void Bench::say(const Error& error) {
+  say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
 }
 
 void Bench::say(MessageKind kind, const std::string& text) {
@@ -61,44 +117,10 @@ void Bench::say(MessageKind kind, const std::string& text) {
   changed_ = true;
 }
 
-// The undo stack before the line ran was `depth_before` deep; a change cuts off what had been undone.
-void Bench::mark_change(std::size_t depth_before, bool joins_last) {
-  const std::size_t depth = session_->undo_depth();
-  if (depth <= depth_before) return;
-  std::erase_if(marks_, [&](std::size_t mark) { return mark > depth_before; });
-  if (joins_last && !marks_.empty() && marks_.back() == depth_before) marks_.pop_back();
-  marks_.push_back(depth);
-}
-
-void Bench::remember(const std::string& line, std::size_t depth_before, bool repeats) {
-  const std::size_t depth = session_->undo_depth();
-  if (depth > depth_before) std::erase_if(history_, [&](const HistoryEntry& entry) { return entry.undone; });
-  if (repeats && !history_.empty() && history_.back().line == line) {
-    history_.back().depth = depth;
-    ++history_.back().times;
-  } else {
-    history_.push_back({.line = line, .depth = depth});
-  }
-  history_changed_ = true;
-  ++lines_;
-}
-
-bool Bench::run_one(const std::string& text) {
+void Bench::run_one(const std::string& line) {
   if (on_line) on_line();
-  const io::SessionLine line = io::parse_session_line(text, "input", 1);
-  if (line.tokens.empty()) return true;
-  const std::size_t depth = session_->undo_depth();
-  session_->run_line(line);
-  const std::string written = io::format_line(line.tokens);
-  const std::string& name = line.tokens[0].text;
-  if (name == "new" || name == "open" || name == "solidify") ++solids_;
-  if (name == "tool") ++tool_lines_;
-  const sculpt::Effect effect = sculpt::find_command(line).effect;
-  if (effect == sculpt::Effect::history)
-    ++lines_;
-  else
-    remember(written, depth, false);
-  return true;
+  sitting_.run(line);
+  history_changed_ = true;
 }
 
 bool Bench::run(const std::string& line) {
@@ -108,17 +130,21 @@ bool Bench::run(const std::string& line) {
 bool Bench::run_together(const std::vector<std::string>& lines, bool joins_last) {
   if (stroke_) end_stroke(false);
   preview({});
-  const std::size_t depth = session_->undo_depth();
+  const std::size_t depth = session().undo_depth();
   played_last_ = false;
   bool well = true;
   try {
     for (const std::string& line : lines) run_one(line);
+  } catch (const Cancelled& cancelled) {
+    if (session().undo_depth() > depth) run_one(fmt::format("undo {}", session().undo_depth() - depth));
+    say(MessageKind::note, cancelled.what());
+    well = false;
   } catch (const Error& error) {
     say(MessageKind::error, error.what());
     well = false;
   }
-  mark_change(depth, joins_last);
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
+  sitting_.mark_change(depth, joins_last);
+  show_all_anew();
   return well;
 }
 
@@ -127,139 +153,22 @@ void Bench::undo() {
     cancel_stroke();
     return;
   }
-  const std::size_t depth = session_->undo_depth();
-  if (depth == 0) {
+  const std::size_t changes = sitting_.changes_to_undo();
+  if (changes == 0) {
     say(MessageKind::note, "there is nothing to undo");
     return;
   }
-  std::size_t below = 0;
-  for (const std::size_t mark : marks_)
-    if (mark < depth) below = std::max(below, mark);
   set_playing(false);
-  run(fmt::format("undo {}", depth - below));
+  run(fmt::format("undo {}", changes));
 }
 
 void Bench::redo() {
-  const std::size_t depth = session_->undo_depth(), top = depth + session_->redo_depth();
-  if (top == depth) {
+  const std::size_t changes = sitting_.changes_to_redo();
+  if (changes == 0) {
     say(MessageKind::note, "there is nothing to redo");
     return;
   }
-  std::size_t above = top;
-  for (const std::size_t mark : marks_)
-    if (mark > depth) above = std::min(above, mark);
-  run(fmt::format("redo {}", above - depth));
-}
-
-std::string tool_line(const sculpt::Tool& now, const sculpt::Tool& wanted) {
-  std::string line;
-  if (wanted.radius != now.radius) line += fmt::format(" radius {}", wanted.radius);
-  if (wanted.strength != now.strength) line += fmt::format(" strength {}", wanted.strength);
-  if (wanted.largest_force != now.largest_force) line += fmt::format(" limit {}", wanted.largest_force);
-  if (wanted.falloff != now.falloff) line += " falloff " + wanted.falloff;
-  if (wanted.symmetry != now.symmetry)
-    line += wanted.symmetry == 0 ? " symmetry none" : fmt::format(" symmetry {}", wanted.symmetry);
-  if (wanted.amount != now.amount || wanted.scales != now.scales)
-    line += fmt::format(" {} {}", wanted.scales ? "scale" : "value", wanted.amount);
-  return line.empty() && wanted.name == now.name ? std::string{} : "tool " + wanted.name + line;
-}
-
-void Bench::begin_stroke(const StrokeStart& start) {
-  if (stroke_) return;
-  preview({});
-  set_playing(false);
-  played_last_ = false;
-  stroke_depth_ = session_->undo_depth();
-  stroke_from_.reset();
-  stroke_ticks_ = 0;
-  try {
-    const std::string tool = tool_line(session_->document().state().tool, start.tool);
-    if (!tool.empty()) {
-      run_one(tool);
-      --tool_lines_;
-    }
-    stroke_ = std::make_unique<sculpt::Stroke>(*session_, start.pose, start.options);
-  } catch (const Error& error) {
-    say(MessageKind::error, error.what());
-    drop_stroke();
-  }
-  changed_ = true;
-}
-
-// Of a stroke that is not to be nothing stays, its choice of tool included.
-void Bench::drop_stroke() {
-  stroke_.reset();
-  const std::size_t depth = session_->undo_depth();
-  if (depth > stroke_depth_) run_one(fmt::format("undo {}", depth - stroke_depth_));
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
-}
-
-void Bench::tick_stroke(const sculpt::StrokePose& device) {
-  if (!stroke_) return;
-  ++stroke_ticks_;
-  try {
-    if (!stroke_->tick(device)) return;
-  } catch (const Error& error) {
-    say(MessageKind::error, error.what());
-    cancel_stroke();
-  }
-  changed_ = true;
-}
-
-StrokeNow Bench::stroke_now() const {
-  const sculpt::StrokeForce force = stroke_->force();
-  const sculpt::Tool& tool = session_->document().state().tool;
-  StrokeNow now{force.at, force.force};
-  now.at_limit = force.force.norm() >= 0.999 * tool.largest_force;
-  if (stroke_->reading()) {
-    now.felt = stroke_->reading()->stiffness;
-  } else if (stroke_from_) {
-    const double way = (force.at - *stroke_from_).norm();
-    if (way > 0.01 * tool.radius) now.felt = force.force.norm() / way;
-  }
-  return now;
-}
-
-sculpt::ContactModel Bench::felt_at(const Eigen::Vector3d& at, sculpt::Tick valid_until) const {
-  sculpt::ContactModel nothing;
-  nothing.point = at;
-  nothing.valid_until = valid_until;
-  sculpt::add_obstacle_walls(nothing, session_->document(), session_->document().state().tool.radius);
-  return nothing;
-}
-
-void Bench::end_stroke(bool keep) {
-  if (!stroke_) return;
-  try {
-    if (on_line) on_line();
-    const std::size_t depth = session_->undo_depth();
-    if (stroke_ticks_ == 0) {  // pressed and let go at once
-      stroke_->cancel();
-      drop_stroke();
-      return;
-    }
-    const std::string line = stroke_->finish();
-    stroke_.reset();
-    session_->adopt_line(line);
-    const double time = session_->document().state().motion->time;
-    remember(line, depth, false);
-    history_.back().stroke_end = time;
-    const bool moved =
-        session_->undo_depth() > depth && session_->document().state().motion->velocities.squaredNorm() > 0;
-    if (keep && moved) run_one("commit");
-  } catch (const Error& error) {
-    stroke_.reset();
-    say(MessageKind::warning, error.what());
-  }
-  mark_change(stroke_depth_, false);
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
-}
-
-void Bench::cancel_stroke() {
-  if (!stroke_) return;
-  stroke_->cancel();
-  drop_stroke();
-  say(MessageKind::note, "the stroke was taken back");
+  run(fmt::format("redo {}", changes));
 }
 
 void Bench::set_playing(bool on) {
@@ -272,11 +181,12 @@ void Bench::set_playing(bool on) {
 
 void Bench::play_step() {
   if (on_line) on_line();
-  const std::size_t depth = session_->undo_depth();
+  const std::size_t depth = session().undo_depth();
   try {
-    session_->run_line(std::string("step 1"));
-    remember("step 1", depth, played_last_);
-    mark_change(depth, played_last_);
+    session().run_line(std::string("step 1"));
+    sitting_.remember("step 1", depth, played_last_);
+    sitting_.mark_change(depth, played_last_);
+    history_changed_ = true;
     played_last_ = true;
   } catch (const Error& error) {
     say(MessageKind::error, error.what());
@@ -288,12 +198,6 @@ void Bench::play_step() {
 void Bench::show(const Shown& shown) {
   shown_ = shown;
   changed_ = whole_ = true;
-}
-
-void Bench::preview(std::vector<std::string> lines) {
-  if (lines == preview_) return;
-  preview_ = std::move(lines);
-  preview_changed_ = changed_ = true;
 }
 
 }  // namespace argil::studio

@@ -1,15 +1,17 @@
 #pragma once
-// The session on the work bench: runs lines, strokes and steps, keeps what the window shows of them, and makes
-// snapshots. It belongs to one thread at a time, the simulation's; workshop.h is how frames talk to it.
+// The session on the work bench: runs lines, strokes and steps, and makes snapshots of what the window shows of
+// them. It belongs to one thread at a time, the simulation's; workshop.h is how frames talk to it. Beside it stand
+// the darkroom, which makes films, the previewer, which makes ghosts, and the filing of what the disk holds.
 
 #include <filesystem>
 #include <functional>
 #include <memory>
 
-#include "sculpt/session.h"
 #include "sculpt/stroke.h"
-#include "tools/studio/file_browser.h"
-#include "tools/studio/safekeeping.h"
+#include "tools/studio/darkroom.h"
+#include "tools/studio/filing.h"
+#include "tools/studio/previewer.h"
+#include "tools/studio/sitting.h"
 #include "tools/studio/snapshot.h"
 
 namespace argil::studio {
@@ -19,11 +21,7 @@ struct BenchOptions {
   sculpt::Renderer* renderer = nullptr;      // for the command `render`; may be null
   std::filesystem::path samples{};           // folder of the samples; empty: there are none
   std::filesystem::path settings{};          // folder of the sculptor's settings; empty: none are kept
-  /// Makes a film of a session whose files are read beneath `read_root`: of its simulation, or of its last shape
-  /// turning. Says where it is. Null: there are no films.
-  std::function<std::string(const std::filesystem::path& session, const std::filesystem::path& read_root,
-                            bool turntable)>
-      film{};
+  FilmMaker film{};                          // null: there are no films
   /// Not empty, for a script that nobody watches: sessions are saved beneath it alone, and relative names mean
   /// there.
   std::filesystem::path save_root{};
@@ -53,7 +51,8 @@ class Bench {
   bool run_together(const std::vector<std::string>& lines, bool joins_last = false);
   void undo();
   void redo();
-  /// A session file begins a new journal; a volume mesh is opened by a line. Errors become messages.
+  /// A session file begins a new journal; a volume mesh is opened by a line. Errors become messages; if it is
+  /// cancelled, the session before goes on.
   void open(const std::filesystem::path& file);
   /// Writes the journal there, whole or not at all.
   void save(const std::filesystem::path& file);
@@ -63,13 +62,11 @@ class Bench {
   void begin_block();
   /// Work that was not saved becomes the session: every whole line that can run. It stays unsaved.
   void bring_back(const UnsavedWork& work);
-  void throw_away(const UnsavedWork& work);
-  void film(bool turntable);
-  // What dialogues show.
-  void list(const std::string& typed);
-  void look_for_samples();
+  /// Write the sculptor's own keys, and settings (settings_file.h). Errors become messages.
   void write_keys(const std::string& lines);
   void write_settings(const std::string& lines);
+  /// Of the session as it is now, in the darkroom: of its simulation, or of its last shape turning.
+  void film(bool turntable);
 
   /// The tool becomes the document's if it is not; that and the stroke are undone together.
   void begin_stroke(const StrokeStart& start);
@@ -89,50 +86,57 @@ class Bench {
   void play_step();
 
   void show(const Shown& shown);
-  /// What these lines would make is shown from the next snapshot on, until anything is done; empty: nothing more.
-  void preview(std::vector<std::string> lines);
+  /// What these lines would make is shown as soon as it is known, until anything is done; empty: nothing more.
+  void preview(std::vector<std::string> lines) { previewer_.want(std::move(lines)); }
   const Shown& shown() const { return shown_; }
   void say(MessageKind kind, const std::string& text);
   void missed(long ticks) { missed_ticks_ += ticks; }
 
-  sculpt::Session& session() { return *session_; }
-  const sculpt::Session& session() const { return *session_; }
-  bool has_changed() const { return changed_; }
+  sculpt::Session& session() { return *sitting_.session; }
+  const sculpt::Session& session() const { return *sitting_.session; }
+  Filing& filing() { return filing_; }
+  Darkroom& darkroom() { return darkroom_; }
+  const Darkroom& darkroom() const { return darkroom_; }
+  const Previewer& previewer() const { return previewer_; }
+  /// Real time: films and ghosts are made by threads of their own, until they are stopped.
+  void start_beside();
+  void stop_beside();
+  [[nodiscard]] bool has_changed() const;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
   /// Called for each line that runs; for tests.
   std::function<void()> on_line;
-  /// Called while a line or a file runs, on this thread; the share done is −1 where it is not known. False ends the
-  /// line, which then changes nothing.
+  /// Called while a line or a file runs, and while a snapshot is made, on this thread; the share done is −1 where
+  /// it is not known. False ends the line, which then changes nothing.
   std::function<bool(double share, const std::string& what)> on_progress;
+  /// Called by other threads when there is something new to show.
+  std::function<void()> on_news;
 
  private:
   void keep(const std::string& file, const std::string& lines);
-  void begin_session(const std::filesystem::path& read_root);
-  void run_all(const std::vector<io::SessionLine>& lines);
+  /// A session after the present one, whose journal has this name.
+  [[nodiscard]] Sitting new_sitting(const std::filesystem::path& read_root, const std::string& journal);
+  /// Begins a session and fills it. Cancelled, the one before goes on; after any other Error the new one stays as
+  /// far as it came.
+  void load(const std::filesystem::path& read_root, const std::function<void()>& fill);
+  void run_all(const std::vector<std::string>& lines);
   void mark_saved(const std::filesystem::path& file);
-  void used(const std::filesystem::path& file);
+  void show_all_anew();
+  void say(const Error& error);
   void go_on(double share, const std::string& what) const;
-  bool run_one(const std::string& line);
-  void mark_change(std::size_t depth_before, bool joins_last);
-  void remember(const std::string& line, std::size_t depth_before, bool repeats);
+  void run_one(const std::string& line);
   void draw_scene(Snapshot& next);
   [[nodiscard]] sculpt::PictureRequest request() const;
   void lay_curve(Snapshot& next);
   void mark_layers(Snapshot& next);
   void draw_ghost(Snapshot& next);
+  void tell_session(Snapshot& next);
   void move_scene(Snapshot& next);
   void read_document(Snapshot& next);
 
   BenchOptions options_;
-  Safekeeping keeping_;
-  std::shared_ptr<const std::vector<UnsavedWork>> unsaved_;  // as the window sees it
-  RecentFiles recent_;
-  std::shared_ptr<const std::vector<std::filesystem::path>> shown_recent_;
-  std::shared_ptr<const FolderListing> listing_;
-  std::shared_ptr<const std::vector<Sample>> samples_;
-  std::unique_ptr<sculpt::Session> session_;
-  std::vector<std::size_t> marks_;  // depths of the undo stack at which an action of the user ended
-  std::vector<HistoryEntry> history_;
+  Filing filing_;
+  Sitting sitting_;
+  std::size_t file_line_ = 0, file_lines_ = 0;  // of the file that is being read, how many have run of how many
   std::shared_ptr<const std::vector<HistoryEntry>> shown_history_;
   std::vector<Message> messages_;
   std::uint64_t message_count_ = 0;
@@ -145,14 +149,11 @@ class Bench {
   std::optional<Eigen::Vector3d> stroke_from_;
   bool playing_ = false, played_last_ = false;
   Shown shown_;
-  std::vector<std::string> preview_;
-  bool preview_changed_ = false;
-  std::filesystem::path file_;
-  std::size_t lines_ = 0, saved_lines_ = 0;
-  std::uint64_t solids_ = 0, tool_lines_ = 0;
   long missed_ticks_ = 0;
   bool changed_ = true, whole_ = true, history_changed_ = true, shade_again_ = true;
   std::shared_ptr<const Snapshot> last_;
+  Previewer previewer_;
+  Darkroom darkroom_;
 };
 
 }  // namespace argil::studio

@@ -20,27 +20,41 @@ const std::vector<std::string>& block_lines() {
   return lines;
 }
 
-void Bench::used(const std::filesystem::path& file) {
-  recent_.add(file);
-  shown_recent_ = std::make_shared<const std::vector<std::filesystem::path>>(recent_.all());
-}
-
 void Bench::mark_saved(const std::filesystem::path& file) {
-  file_ = file;
-  saved_lines_ = lines_;
-  keeping_.kept(session_->options().read_root, file);
-  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
+  sitting_.file = file;
+  sitting_.saved_lines = sitting_.lines;
+  filing_.kept(session().options().read_root, file);
 }
 
-void Bench::run_all(const std::vector<io::SessionLine>& lines) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::size_t depth = session_->undo_depth();
-    const std::string line = io::format_line(lines[i].tokens);
-    go_on(static_cast<double>(i) / static_cast<double>(lines.size()), line);
+void Bench::run_all(const std::vector<std::string>& lines) {
+  // Counts the lines of the file for as long as this lives.
+  struct Count {
+    explicit Count(Bench& bench, std::size_t lines) : of(bench) { of.file_lines_ = lines; }
+    ~Count() { of.file_line_ = of.file_lines_ = 0; }
+    Count(const Count&) = delete;
+    Count& operator=(const Count&) = delete;
+    Bench& of;
+  };
+  const Count count(*this, lines.size());
+  for (const std::string& line : lines) {
+    const std::size_t depth = session().undo_depth();
+    go_on(static_cast<double>(file_line_) / static_cast<double>(file_lines_), line);
     run_one(line);
-    mark_change(depth, false);
+    sitting_.mark_change(depth, false);
+    ++file_line_;
   }
 }
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text, const std::filesystem::path& file) {
+  std::vector<std::string> lines;
+  for (const io::SessionLine& line : io::parse_session(text, file.filename().string()))
+    lines.push_back(io::format_line(line.tokens));
+  return lines;
+}
+
+}  // namespace
 
 void Bench::open(const std::filesystem::path& wanted) {
   try {
@@ -49,84 +63,62 @@ void Bench::open(const std::filesystem::path& wanted) {
     const bool was_saved = !options_.save_root.empty() && std::filesystem::is_regular_file(saved, failure);
     const std::filesystem::path& file = was_saved ? saved : wanted;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (file.extension() != ".argil") {
-      begin_session(folder);
-      if (run_together({fmt::format("open \"{}\"", file.filename().string()), "levels 1"})) {
-        mark_saved({});
-        used(file);
-      }
-    } else {
-      const auto lines = io::parse_session(io::read_file(file), file.filename().string());
-      begin_session(folder);
-      run_all(lines);
-      mark_saved(file);
-      used(file);
-    }
+    const bool is_session = file.extension() == ".argil";
+    const std::vector<std::string> lines =
+        is_session ? lines_of(io::read_file(file), file)
+                   : std::vector<std::string>{fmt::format("open \"{}\"", file.filename().string()), "levels 1"};
+    load(folder, [&] { run_all(lines); });
+    mark_saved(is_session ? file : std::filesystem::path{});
+    filing_.used(file);
   } catch (const Error& error) {
-    say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
+    say(error);
   } catch (const std::filesystem::filesystem_error& error) {
     say(MessageKind::error, error.what());
   }
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
 }
 
 void Bench::open_sample(const std::filesystem::path& file) {
   try {
-    const auto lines = io::parse_session(io::read_file(file), file.filename().string());
-    begin_session(file.parent_path());
-    run_all(lines);
+    const auto lines = lines_of(io::read_file(file), file);
+    load(file.parent_path(), [&] { run_all(lines); });
     mark_saved({});
   } catch (const Error& error) {
-    say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
+    say(error);
   }
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
 }
 
 void Bench::begin_block() {
-  begin_session(".");
-  if (run_together(block_lines())) mark_saved({});
+  try {
+    load(".", [&] { run_all(block_lines()); });
+    // The block is one action: there is nothing before it to go back to.
+    sitting_.marks = {session().undo_depth()};
+    mark_saved({});
+  } catch (const Error& error) {
+    say(error);
+  }
 }
 
 void Bench::bring_back(const UnsavedWork& work) {
   try {
-    const auto lines = io::parse_session(whole_lines(work.journal), work.journal.filename().string());
-    begin_session(work.read_root);
-    file_ = work.file;
-    run_all(lines);
-    keeping_.forget(work);
+    const auto lines = lines_of(whole_lines(work.journal), work.journal);
+    load(work.read_root, [&] { run_all(lines); });
+    sitting_.file = work.file;
+    filing_.forget(work);
     say(MessageKind::note, fmt::format("{} changes that were not saved are back", work.changes));
   } catch (const Error& error) {
     // Its files stay until all of it is back.
-    say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
+    say(error);
   }
-  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
-  changed_ = whole_ = history_changed_ = shade_again_ = true;
-}
-
-void Bench::throw_away(const UnsavedWork& work) {
-  keeping_.forget(work);
-  unsaved_ = std::make_shared<const std::vector<UnsavedWork>>(keeping_.unsaved());
-  changed_ = true;
 }
 
 void Bench::film(bool turntable) {
   if (stroke_) end_stroke(false);
   try {
-    if (!options_.film) throw Error(ErrorCode::unsupported, "this program makes no films");
-    say(MessageKind::note, options_.film(session_->journal_path(), session_->options().read_root, turntable));
+    darkroom_.make(
+        {io::read_file(session().journal_path()), session().options().read_root, filing_.folder(), turntable});
   } catch (const Error& error) {
-    say(MessageKind::error, error.what());
+    say(error);
   }
-}
-
-void Bench::list(const std::string& typed) {
-  listing_ = std::make_shared<const FolderListing>(list_folder(typed));
-  changed_ = true;
-}
-
-void Bench::look_for_samples() {
-  if (!samples_) samples_ = std::make_shared<const std::vector<Sample>>(find_samples(options_.samples));
-  changed_ = true;
 }
 
 void Bench::write_keys(const std::string& lines) {
@@ -138,12 +130,10 @@ void Bench::write_settings(const std::string& lines) {
 }
 
 void Bench::keep(const std::string& file, const std::string& lines) {
-  if (options_.settings.empty()) return;
   try {
-    std::filesystem::create_directories(options_.settings);
-    io::write_file(options_.settings / file, lines);
+    filing_.keep(file, lines);
   } catch (const Error& error) {
-    say(MessageKind::error, error.what());
+    say(error);
   } catch (const std::filesystem::filesystem_error& error) {
     say(MessageKind::error, error.what());
   }
@@ -157,9 +147,9 @@ void Bench::save(const std::filesystem::path& wanted) {
         file.lexically_normal().lexically_relative(options_.save_root.lexically_normal());
     if (!options_.save_root.empty() && (way.empty() || *way.begin() == ".."))
       throw Error(ErrorCode::refused, "a script saves beneath its --out folder alone; take a relative name");
-    io::write_file(file, io::read_file(session_->journal_path()));
+    io::write_file(file, io::read_file(session().journal_path()));
     mark_saved(file);
-    used(file);
+    filing_.used(file);
     say(MessageKind::note, "saved as " + file.string());
   } catch (const Error& error) {
     say(MessageKind::error, error.what());

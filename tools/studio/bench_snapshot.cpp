@@ -58,7 +58,7 @@ sculpt::PictureRequest Bench::request() const {
 // How deep the solid can be peeled; what is left is at least its innermost layer.
 void Bench::mark_layers(Snapshot& next) {
   next.layers = 0;
-  const subdiv::Solid& solid = session_->document().refinement().solid();
+  const subdiv::Solid& solid = session().document().refinement().solid();
   const auto depth = sculpt::cell_depths(solid);
   for (const subdiv::CellId c : solid.cells()) next.layers = std::max(next.layers, static_cast<int>(depth[c]));
   shown_.peel = std::clamp(shown_.peel, 0, next.layers);
@@ -67,7 +67,7 @@ void Bench::mark_layers(Snapshot& next) {
 void Bench::lay_curve(Snapshot& next) {
   next.curve.reset();
   if (shown_.curve.empty()) return;
-  const sculpt::Document& document = session_->document();
+  const sculpt::Document& document = session().document();
   auto laid = std::make_shared<CurveOnSurface>();
   try {
     laid->handles = sculpt::nearest_on_surface(document, shown_.curve);
@@ -89,17 +89,21 @@ void Bench::lay_curve(Snapshot& next) {
 }
 
 void Bench::draw_ghost(Snapshot& next) {
-  preview_changed_ = false;
-  next.ghost.reset();
-  if (preview_.empty() || !next.scene) return;
-  auto ghost =
-      std::make_shared<Ghost>(make_ghost(session_->document(), preview_, request(), next.scene->surface, options_));
-  ghost->layout = next.layout;
-  next.ghost = std::move(ghost);
+  if (!next.scene) preview({});
+  const bool anew = next.layout != (last_ ? last_->layout : 0);
+  previewer_.begin(anew, [&] {
+    return GhostSubject{.state = detached(session().document().state()),
+                        .request = request(),
+                        .scene = next.scene,
+                        .layout = next.layout,
+                        .out = filing_.folder(),
+                        .limits = options_.limits};
+  });
+  next.ghost = previewer_.show();
 }
 
 void Bench::draw_scene(Snapshot& next) {
-  const sculpt::Document& document = session_->document();
+  const sculpt::Document& document = session().document();
   mark_layers(next);
   sculpt::PictureRequest request = this->request();
   std::shared_ptr<sculpt::Scene> scene;
@@ -133,7 +137,7 @@ void Bench::draw_scene(Snapshot& next) {
 
 // While the body moves only places and values change.
 void Bench::move_scene(Snapshot& next) {
-  const sculpt::Document& document = session_->document();
+  const sculpt::Document& document = session().document();
   auto scene = std::make_shared<sculpt::Scene>(*last_->scene);
   const Eigen::Matrix3Xd now =
       document.state().level == 0 ? document.positions() : document.surface_nodes(document.positions());
@@ -166,7 +170,7 @@ void Bench::move_scene(Snapshot& next) {
 }
 
 void Bench::read_document(Snapshot& next) {
-  const sculpt::Document& document = session_->document();
+  const sculpt::Document& document = session().document();
   next.control_cells = document.solid().cell_count();
   const Eigen::Matrix3Xd& rest = document.rest();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
@@ -199,18 +203,53 @@ void Bench::read_document(Snapshot& next) {
   }
 }
 
+void Bench::tell_session(Snapshot& next) {
+  const sculpt::Document& document = session().document();
+  next.state = document.state();
+  next.tool = document.state().tool;
+  next.tool_number = sitting_.tool_lines;
+  if (history_changed_ || !shown_history_) {
+    for (HistoryEntry& entry : sitting_.history) entry.undone = entry.depth > session().undo_depth();
+    shown_history_ = std::make_shared<const std::vector<HistoryEntry>>(sitting_.history);
+  }
+  next.history = shown_history_;
+  next.undo_depth = session().undo_depth();
+  next.redo_depth = session().redo_depth();
+  next.journal_lines = sitting_.lines;
+  next.saved = sitting_.lines == sitting_.saved_lines;
+  filing_.show(next);
+  next.file = sitting_.file.string();
+  next.solid_number = sitting_.solids;
+  next.playing = playing_;
+  next.stroke.reset();
+  if (stroke_) {
+    if (!stroke_from_) stroke_from_ = stroke_->force().at;
+    next.stroke = stroke_now();
+  }
+  const auto& steps = session().steps();
+  next.steps = static_cast<long>(steps.size());
+  if (!steps.empty()) {
+    double sum = 0;
+    const std::size_t count = std::min<std::size_t>(steps.size(), 30);
+    for (std::size_t i = steps.size() - count; i < steps.size(); ++i) sum += steps[i].ms;
+    next.step_ms = sum / static_cast<double>(count);
+  }
+  next.missed_ticks = missed_ticks_;
+  next.messages = messages_;
+}
+
 std::shared_ptr<const Snapshot> Bench::snapshot() {
+  for (const Message& news : darkroom_.take_news()) say(news.kind, news.text);
   auto next = std::make_shared<Snapshot>();
   if (last_) *next = *last_;
   ++next->version;
   next->shade_again = false;
-  const sculpt::Document& document = session_->document();
+  const sculpt::Document& document = session().document();
   const bool empty = document.empty();
   const bool moving = stroke_ || playing_;
   if (empty) {
     next->scene.reset();
     next->selectable.reset();
-    next->ghost.reset();
     next->curve.reset();
     next->mask.clear();
     next->layers = 0;
@@ -225,7 +264,7 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
   } else if (last_->state.motion != document.state().motion || last_->state.fields != document.state().fields) {
     move_scene(*next);
   }
-  if (preview_changed_ || next->layout != (last_ ? last_->layout : 0)) draw_ghost(*next);
+  draw_ghost(*next);
   if (empty || !shown_.energy) {
     next->energy = -1;
   } else if (!last_ || last_->energy < 0 || last_->state.motion != document.state().motion) {
@@ -235,40 +274,7 @@ std::shared_ptr<const Snapshot> Bench::snapshot() {
       next->energy = -1;  // a solid that cannot be simulated, a model without an energy
     }
   }
-  next->state = document.state();
-  next->tool = document.state().tool;
-  next->tool_number = tool_lines_;
-  if (history_changed_ || !shown_history_) {
-    for (HistoryEntry& entry : history_) entry.undone = entry.depth > session_->undo_depth();
-    shown_history_ = std::make_shared<const std::vector<HistoryEntry>>(history_);
-  }
-  next->history = shown_history_;
-  next->undo_depth = session_->undo_depth();
-  next->redo_depth = session_->redo_depth();
-  next->journal_lines = lines_;
-  next->saved = lines_ == saved_lines_;
-  next->unsaved = unsaved_;
-  next->recent = shown_recent_;
-  next->listing = listing_;
-  next->samples = samples_;
-  next->file = file_.string();
-  next->solid_number = solids_;
-  next->playing = playing_;
-  next->stroke.reset();
-  if (stroke_) {
-    if (!stroke_from_) stroke_from_ = stroke_->force().at;
-    next->stroke = stroke_now();
-  }
-  const auto& steps = session_->steps();
-  next->steps = static_cast<long>(steps.size());
-  if (!steps.empty()) {
-    double sum = 0;
-    const std::size_t count = std::min<std::size_t>(steps.size(), 30);
-    for (std::size_t i = steps.size() - count; i < steps.size(); ++i) sum += steps[i].ms;
-    next->step_ms = sum / static_cast<double>(count);
-  }
-  next->missed_ticks = missed_ticks_;
-  next->messages = messages_;
+  tell_session(*next);
   changed_ = whole_ = history_changed_ = false;
   last_ = next;
   return next;

@@ -55,7 +55,7 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
   Ui& ui = *desk.ui;
   if (desk.listed != desk.typed || desk.dialogue != desk.shown_dialogue) {
     desk.listed = desk.typed;
-    desk.workshop->post([typed = desk.typed](Bench& bench) { bench.list(typed); });
+    desk.workshop->post([typed = desk.typed](Bench& bench) { bench.filing().list(typed); });
   }
   const std::vector<Choice> shown = saves ? std::vector<Choice>{} : choices(desk);
   const float wide = ui.px(560), field = ui.px(48), row = ui.px(28);
@@ -95,7 +95,7 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
 void draw_samples(Desk& desk, int width, int height) {
   Ui& ui = *desk.ui;
   const Tokens& t = ui.tokens();
-  if (!desk.now->samples) desk.workshop->post([](Bench& bench) { bench.look_for_samples(); });
+  if (!desk.now->samples) desk.workshop->post([](Bench& bench) { bench.filing().look_for_samples(); });
   static const std::vector<Sample> k_none;
   const std::vector<Sample>& samples = desk.now->samples ? *desk.now->samples : k_none;
   // As many columns as fit, in cards of the pictures' shape.
@@ -174,7 +174,7 @@ void draw_unsaved(Desk& desk, int width, int height) {
     }
     if (ui.text_button(("Throw away" + number).c_str(), {place.right() - ui.px(114), y, ui.px(98), ui.px(30)},
                        "Throw away", false, "Removes it for good"))
-      desk.workshop->post([work](Bench& bench) { bench.throw_away(work); });
+      desk.workshop->post([work](Bench& bench) { bench.filing().forget(work); });
   }
   ui.end_panel();
 }

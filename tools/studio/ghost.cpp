@@ -16,15 +16,8 @@ namespace argil::studio {
 
 namespace {
 
-// Nothing of a copy is shared with the document: edits on the control solid add to its arrays in place.
-sculpt::State copy_of(const sculpt::State& state) {
-  sculpt::State copy = state;
-  copy.solid = std::make_shared<subdiv::Solid>(*state.solid);
-  copy.rest = std::make_shared<Eigen::Matrix3Xd>(*state.rest);
-  copy.motion = std::make_shared<fem::BodyState>(*state.motion);
-  copy.fields = std::make_shared<sculpt::Fields>(*state.fields);
-  return copy;
-}
+constexpr double k_lines = 0.7;          // of the work: running them; the rest is to see what has changed
+constexpr std::size_t k_between = 1024;  // places, two words of progress
 
 Eigen::Vector3d middle_of(const sculpt::SceneSurface& surface, std::size_t face) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -111,10 +104,20 @@ void count_elements(const subdiv::Solid& before, const subdiv::Solid& after, Gho
   for (const FaceId f : after.faces()) ghost.faces_made += shows(after, f) && !shows(before, f) ? 1 : 0;
 }
 
+std::vector<float> shares_from(const Distances& distances, const sculpt::SceneSurface& surface, double whole,
+                               const Progress& progress) {
+  std::vector<float> shares;
+  shares.reserve(surface.positions.size());
+  for (const Eigen::Vector3f& p : surface.positions) {
+    if (shares.size() % k_between == 0)
+      progress.at(static_cast<double>(shares.size()) / static_cast<double>(surface.positions.size()));
+    shares.push_back(distances.share(p, whole));
+  }
+  return shares;
+}
+
 // What is new fades in with its distance from the surface that is there.
-void take_new_faces(const sculpt::SceneSurface& surface, const Distances& old, double whole, Ghost& ghost) {
-  std::vector<float> share;
-  for (const Eigen::Vector3f& p : surface.positions) share.push_back(old.share(p, whole));
+void take_new_faces(const sculpt::SceneSurface& surface, const std::vector<float>& share, Ghost& ghost) {
   for (std::size_t f = 0; f + 1 < surface.offsets.size(); ++f) {
     const std::size_t first = surface.offsets[f], size = surface.offsets[f + 1] - first;
     float sum = 0;
@@ -134,26 +137,44 @@ void take_new_faces(const sculpt::SceneSurface& surface, const Distances& old, d
 
 }  // namespace
 
-Ghost make_ghost(const sculpt::Document& document, const std::vector<std::string>& lines,
-                 const sculpt::PictureRequest& request, const sculpt::SceneSurface& surface,
-                 const BenchOptions& options) {
+sculpt::State detached(const sculpt::State& state) {
+  sculpt::State copy = state;
+  copy.solid = std::make_shared<subdiv::Solid>(*state.solid);
+  copy.rest = std::make_shared<Eigen::Matrix3Xd>(*state.rest);
+  copy.motion = std::make_shared<fem::BodyState>(*state.motion);
+  copy.fields = std::make_shared<sculpt::Fields>(*state.fields);
+  return copy;
+}
+
+Ghost make_ghost(const GhostSubject& subject, const std::vector<std::string>& lines,
+                 const Progress::Listener& progress) {
   Ghost ghost;
   ghost.lines = lines;
+  ghost.layout = subject.layout;
+  const sculpt::SceneSurface& surface = subject.scene->surface;
+  const Progress whole_work(progress, "preview");
   try {
     sculpt::SessionOptions alone;
-    alone.out = options.out;
-    alone.limits = options.limits;
+    alone.out = subject.out;
+    alone.limits = subject.limits;
     alone.write_journal = false;
+    double share = 0;
+    alone.progress = [&](double of_line, const std::string& what) {
+      share = std::max(share, k_lines * of_line);
+      progress(share, what.c_str());
+    };
     sculpt::Session session(alone);
-    session.document().assign(copy_of(document.state()));
+    session.document().assign(detached(subject.state));  // edits change the solid in place
     for (const std::string& line : lines) {
       const auto effect = sculpt::find_command(io::parse_session_line(line, "input", 1)).effect;
       if (effect != sculpt::Effect::state)
         throw Error(ErrorCode::bad_input, "only what changes the document can be shown before it is done");
       session.run_line(line);
     }
-    count_elements(document.solid(), session.document().solid(), ghost);
-    sculpt::PictureRequest plain = request;
+    share = k_lines;
+    whole_work.at(k_lines);
+    count_elements(*subject.state.solid, session.document().solid(), ghost);
+    sculpt::PictureRequest plain = subject.request;
     plain.field.clear();
     plain.cage = plain.marks = false;
     Eigen::Vector3f low = Eigen::Vector3f::Constant(HUGE_VALF), high = -low;
@@ -164,9 +185,10 @@ Ghost make_ghost(const sculpt::Document& document, const std::vector<std::string
     // A hundredth of the solid is a change that is seen as one.
     const double whole = std::max(1e-30, 0.01 * static_cast<double>((high - low).norm()));
     const sculpt::SceneSurface result = sculpt::make_scene(session.document(), plain).surface;
-    take_new_faces(result, Distances(surface), whole, ghost);
-    const Distances next(result);
-    for (const Eigen::Vector3f& p : surface.positions) ghost.gone.push_back(next.share(p, whole));
+    take_new_faces(result, shares_from(Distances(surface), result, whole, whole_work.part(0.8, 0.9)), ghost);
+    ghost.gone = shares_from(Distances(result), surface, whole, whole_work.part(0.9, 1));
+  } catch (const Cancelled&) {
+    throw;
   } catch (const Error& error) {
     ghost.fault = error.what();
   }

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr int k_windows = 64;          // that may run side by side
 constexpr std::size_t k_unsaved = 20;  // that are kept
+constexpr std::size_t k_header_lines = 1;
 
 std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -40,6 +41,11 @@ long number_of(const fs::path& file) {
   return read.ec == std::errc{} && read.ptr == last ? number : -1;
 }
 
+fs::path whole(const fs::path& path) {
+  std::error_code failure;
+  return path.empty() ? path : fs::absolute(path, failure);
+}
+
 void note(const fs::path& journal, const fs::path& read_root, const fs::path& file, std::size_t kept_lines) {
   const nlohmann::json words{
       {"read_root", read_root.string()}, {"file", file.string()}, {"kept_lines", kept_lines}};
@@ -49,7 +55,7 @@ void note(const fs::path& journal, const fs::path& read_root, const fs::path& fi
 /// A note that is missing or damaged says only that nothing was saved.
 UnsavedWork read_work(const fs::path& journal) {
   UnsavedWork work{.journal = journal, .read_root = ".", .file = {}};
-  std::size_t kept = 1;  // the header
+  std::size_t kept = k_header_lines;
   std::error_code failure;
   if (fs::is_regular_file(note_of(journal), failure)) {
     const auto words = nlohmann::json::parse(io::read_file(note_of(journal)), nullptr, false);
@@ -121,10 +127,12 @@ void Safekeeping::set_aside() {
   while (unsaved_.size() > k_unsaved) forget(UnsavedWork(unsaved_.back()));
 }
 
+void Safekeeping::begun(const fs::path& read_root) const {
+  note(folder_ / "journal.argil", whole(read_root), {}, k_header_lines);
+}
+
 void Safekeeping::kept(const fs::path& read_root, const fs::path& file) const {
   const fs::path journal = folder_ / "journal.argil";
-  std::error_code failure;
-  const auto whole = [&](const fs::path& path) { return path.empty() ? path : fs::absolute(path, failure); };
   note(journal, whole(read_root), whole(file), line_count(io::read_file(journal)));
 }
 

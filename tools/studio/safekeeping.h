@@ -33,6 +33,8 @@ class Safekeeping {
 
   /// The session is over and another will begin: what of its journal was not saved is set aside.
   void set_aside();
+  /// Another session has begun to journal, and nothing of it is saved.
+  void begun(const std::filesystem::path& read_root) const;
   /// All that the journal holds by now is saved in `file`, or is no loss (`file` empty).
   void kept(const std::filesystem::path& read_root, const std::filesystem::path& file) const;
   /// The work is in the present journal, or is to be thrown away. Removes its files.

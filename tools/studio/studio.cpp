@@ -76,7 +76,7 @@ Studio::~Studio() {
 
 void Studio::perform(Action action) {
   if (action == Action::cancel) {
-    if (workshop_->work())
+    if (const auto work = workshop_->work(); work && work->can_end)
       workshop_->cancel_work();
     else if (desk_.dialogue != Dialogue::none)
       desk_.dialogue = Dialogue::none;

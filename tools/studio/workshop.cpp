@@ -22,6 +22,9 @@ Workshop::Workshop(BenchOptions options, DeviceShop shop) : bench_(std::move(opt
     if (frame_thread_.load() == std::this_thread::get_id()) ++lines_in_frames_;
   };
   bench_.on_progress = [this](double share, const std::string& what) { return report_work(share, what); };
+  bench_.on_news = [this] {
+    if (real_time_) post([](Bench&) {});
+  };
   publish();
 }
 
@@ -32,6 +35,7 @@ Workshop::~Workshop() {
   }
   woken_.notify_all();
   if (thread_.joinable()) thread_.join();
+  bench_.stop_beside();
 }
 
 void Workshop::post(std::function<void(Bench&)> order) {
@@ -77,14 +81,14 @@ void Workshop::cancel_stroke() {
 
 // In virtual time work takes none, and nothing is to be shown.
 bool Workshop::report_work(double share, const std::string& what) {
-  if (!works_ || thread_.get_id() != std::this_thread::get_id()) return true;
+  if (!(works_ || publishes_) || thread_.get_id() != std::this_thread::get_id()) return true;
   const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
   if (work_since_ < 0) work_since_ = work_reported_ = now;
   if (now - work_reported_ > k_report) {
     work_reported_ = now;
-    work_.store(std::make_shared<const Work>(Work{share, what, now - work_since_}));
+    work_.store(std::make_shared<const Work>(Work{share, what, now - work_since_, works_}));
   }
-  return !cancelled_.load() && !ends_.load();
+  return !ends_.load() && !(works_ && cancelled_.load());
 }
 
 bool Workshop::do_orders() {
@@ -138,7 +142,15 @@ void Workshop::do_play(double seconds, int most) {
 }
 
 void Workshop::publish() {
-  if (bench_.has_changed() || !latest_.load()) latest_.store(bench_.snapshot());
+  if (!bench_.has_changed() && latest_.load()) return;
+  work_since_ = -1;
+  publishes_ = true;
+  try {
+    latest_.store(bench_.snapshot());
+  } catch (const Cancelled&) {  // the window goes, and nobody looks
+  }
+  publishes_ = false;
+  work_.store(nullptr);
 }
 
 void Workshop::advance(double seconds) {
@@ -153,6 +165,7 @@ void Workshop::advance(double seconds) {
 
 void Workshop::start() {
   real_time_ = true;
+  bench_.start_beside();
   if (!thread_.joinable()) thread_ = std::thread([this] { loop(); });
 }
 

@@ -64,15 +64,14 @@ class Workshop {
 
   [[nodiscard]] std::shared_ptr<const Snapshot> latest() const { return latest_.load(); }
 
-  /// What runs now, if it is known to take a while; null: nothing. A frame may show it and cancel it.
-  struct Work {
-    double share = -1;  // −1: not known
-    std::string what;
-    double seconds = 0;  // that it has run
-  };
+  /// What runs now, if it takes a while, which orders wait for; null: nothing. A frame may show it and cancel it.
   [[nodiscard]] std::shared_ptr<const Work> work() const { return work_.load(); }
   /// The line that runs ends as soon as it can and changes nothing.
   void cancel_work() { cancelled_.store(true); }
+  /// A film, and a ghost, that are made beside it; null: none.
+  [[nodiscard]] std::shared_ptr<const Work> film_work() const { return bench_.darkroom().work(); }
+  void cancel_film() { bench_.darkroom().cancel(); }
+  [[nodiscard]] std::shared_ptr<const Work> preview_work() const { return bench_.previewer().work(); }
 
   /// Real time: a thread that lives as long as this.
   void start();
@@ -96,6 +95,7 @@ class Workshop {
   void do_play(double seconds, int most);
   void publish();
   void loop();
+  bool report_work(double share, const std::string& what);
   // The hand: takes its newest sample, and gives it what it should feel.
   void follow_hand();
   void place_hand();
@@ -107,12 +107,12 @@ class Workshop {
   std::condition_variable woken_;
   std::vector<std::function<void(Bench&)>> orders_;
   std::atomic<bool> ends_{false};
-  bool report_work(double share, const std::string& what);
 
   std::atomic<std::shared_ptr<const Snapshot>> latest_;
   std::atomic<std::shared_ptr<const Work>> work_;
   std::atomic<bool> cancelled_{false};
-  bool works_ = false;                          // at an order; strokes and play are not to be waited for
+  // At an order, which can be cancelled, or at a snapshot; strokes and play are not to be waited for.
+  bool works_ = false, publishes_ = false;
   double work_since_ = -1, work_reported_ = 0;  // [s]
   std::atomic<std::thread::id> frame_thread_{};
   std::atomic<long> lines_in_frames_{0};

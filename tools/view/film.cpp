@@ -44,6 +44,16 @@ std::filesystem::path found(const std::string& program) {
   return {};
 }
 
+std::filesystem::path new_folder_beside(const std::filesystem::path& path) {
+  std::error_code fault;
+  for (int attempt = 0; !fault; ++attempt) {
+    const std::filesystem::path folder = path.string() + fmt::format(".partial{}", attempt);
+    if (std::filesystem::create_directory(folder, fault)) return folder;
+  }
+  throw Error(ErrorCode::bad_input, "cannot write the pictures: " + fault.message() + "; choose another folder",
+              path.string());
+}
+
 std::vector<std::string> encoder_arguments(const std::filesystem::path& path, const std::string& partial, int width,
                                            int height, double rate) {
   std::vector<std::string> arguments{"ffmpeg",     "-hide_banner",
@@ -95,7 +105,13 @@ struct FilmWriter::Encoder {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDERR_FILENO);
-    const int fault = posix_spawn(&process, program.c_str(), &actions, nullptr, pointers.data(), environ);
+    // In a group of its own, so that Ctrl-C reaches this program alone, which knows what to take away.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int fault = posix_spawn(&process, program.c_str(), &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (fault != 0) {
@@ -170,12 +186,19 @@ FilmWriter::FilmWriter(std::filesystem::path path, const FilmOptions& options)
                     ending));
 }
 
-FilmWriter::~FilmWriter() = default;
+FilmWriter::~FilmWriter() {
+  std::error_code ignored;
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+std::filesystem::path FilmWriter::numbered(const std::filesystem::path& folder, std::size_t picture) const {
+  return folder / fmt::format("{}_{:04}.png", path_.stem().string(), picture);
+}
 
 void FilmWriter::add(const sculpt::Picture& picture) {
   if (path_.extension() == ".png") {
-    io::write_png(path_.parent_path() / fmt::format("{}_{:04}.png", path_.stem().string(), count_), picture.width,
-                  picture.height, picture.rgba);
+    if (folder_.empty()) folder_ = new_folder_beside(path_);
+    io::write_png(numbered(folder_, count_), picture.width, picture.height, picture.rgba);
     ++count_;
     return;
   }
@@ -197,28 +220,20 @@ void FilmWriter::add(const sculpt::Picture& picture) {
 
 void FilmWriter::finish() {
   if (count_ == 0) throw Error(ErrorCode::bad_input, "a film wants at least one picture");
-  if (!encoder_) return;
-  if (encoder_->wait() != 0) encoder_->fail();
   std::error_code fault;
-  std::filesystem::rename(encoder_->partial, path_, fault);
+  if (encoder_) {
+    if (encoder_->wait() != 0) encoder_->fail();
+    std::filesystem::rename(encoder_->partial, path_, fault);
+  }
+  for (std::size_t i = 0; i < count_ && !encoder_ && !fault; ++i)
+    std::filesystem::rename(numbered(folder_, i), numbered(path_.parent_path(), i), fault);
   if (fault)
     throw Error(ErrorCode::bad_input, "cannot write the film: " + fault.message() + "; choose another folder",
                 path_.string());
 }
 
-std::vector<Eigen::Vector3f> box_corners(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  std::vector<Eigen::Vector3f> corners;
-  for (int corner = 0; corner < 8; ++corner) {
-    Eigen::Vector3d at = low;
-    for (int axis = 0; axis < 3; ++axis)
-      if ((corner >> axis & 1) != 0) at[axis] = high[axis];
-    corners.push_back(at.cast<float>());
-  }
-  return corners;
-}
-
-void turntable(sculpt::Renderer& renderer, sculpt::Scene scene, sculpt::PictureOptions options, int pictures,
-               const std::function<bool(const sculpt::Picture&)>& take) {
+void turntable(sculpt::Renderer& renderer, const sculpt::Scene& scene, sculpt::PictureOptions options, int pictures,
+               const std::function<void(const sculpt::Picture&)>& take) {
   const auto& points = scene.surface.positions;
   if (points.empty()) throw Error(ErrorCode::bad_input, "there is nothing to turn about; begin with a solid");
   Eigen::Vector3f low = points.front(), high = low;
@@ -231,19 +246,20 @@ void turntable(sculpt::Renderer& renderer, sculpt::Scene scene, sculpt::PictureO
   for (const Eigen::Vector3f& point : points) radius = std::max(radius, (point - middle).head<2>().norm());
   // The cylinder about it looks the same from all sides.
   constexpr int k_sides = 64;
-  scene.framed.clear();
+  sculpt::PictureFrame frame{.places = {}, .leaves_room = true};
   for (int side = 0; side < k_sides; ++side)
     for (const float z : {low.z(), high.z()}) {
       const double angle = 2 * std::numbers::pi * side / k_sides;
-      scene.framed.emplace_back(middle.x() + radius * static_cast<float>(std::cos(angle)),
+      frame.places.emplace_back(middle.x() + radius * static_cast<float>(std::cos(angle)),
                                 middle.y() + radius * static_cast<float>(std::sin(angle)), z);
     }
+  if (!options.frame) options.frame = std::move(frame);
   const Eigen::Vector3d from = options.view_from;
   for (int picture = 0; picture < pictures; ++picture) {
     const double angle = 2 * std::numbers::pi * picture / pictures;
     options.view_from = {std::cos(angle) * from.x() - std::sin(angle) * from.y(),
                          std::sin(angle) * from.x() + std::cos(angle) * from.y(), from.z()};
-    if (!take(renderer.render(scene, options))) return;
+    take(renderer.render(scene, options));
   }
 }
 

@@ -26,7 +26,7 @@ class FilmWriter {
   /// `path` ends in .mp4, .gif or .png (NAME_0000.png, …). @throws Error (unsupported) for another ending, or where
   /// there is no ffmpeg, saying how it is installed.
   FilmWriter(std::filesystem::path path, const FilmOptions& options = {});
-  /// A film that was not finished leaves nothing, numbered pictures stay.
+  /// A film that was not finished leaves nothing, and what was there before as it was.
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
@@ -40,19 +40,18 @@ class FilmWriter {
 
  private:
   struct Encoder;
+  [[nodiscard]] std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t picture) const;
   std::filesystem::path path_;
   FilmOptions options_;
   std::unique_ptr<Encoder> encoder_;  // from the first picture on; null for .png
+  std::filesystem::path folder_;      // where numbered pictures are until all are there
   std::size_t count_ = 0;
   int width_ = 0, height_ = 0;
 };
 
-/// The corners of a box about all of these points and `framed`, for Scene::framed.
-[[nodiscard]] std::vector<Eigen::Vector3f> box_corners(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
-
 /// One turn of the eye about what the scene shows, upright, in `pictures` pictures, each given to `take`; the
-/// distance is the same all round. `take` returns false to stop.
-void turntable(sculpt::Renderer& renderer, sculpt::Scene scene, sculpt::PictureOptions options, int pictures,
-               const std::function<bool(const sculpt::Picture&)>& take);
+/// distance is the same all round. What `take` or options.progress throws ends it.
+void turntable(sculpt::Renderer& renderer, const sculpt::Scene& scene, sculpt::PictureOptions options, int pictures,
+               const std::function<void(const sculpt::Picture&)>& take);
 
 }  // namespace argil::view

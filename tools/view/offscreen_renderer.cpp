@@ -18,6 +18,15 @@ constexpr double k_framed_obstacle = 2;       // radii of the body
 constexpr int k_largest = 4096;               // width or height of a picture
 constexpr int k_samples_at_once = 4'000'000;  // a picture is drawn in strips of about so many samples
 
+bool has_extent(const std::vector<Eigen::Vector3f>& places) {
+  bool differ = false;
+  for (const Eigen::Vector3f& place : places) {
+    if (!place.allFinite()) return false;
+    differ = differ || place != places.front();
+  }
+  return differ;
+}
+
 void check(const sculpt::PictureOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > k_largest || options.height > k_largest)
     throw Error(
@@ -31,24 +40,15 @@ void check(const sculpt::PictureOptions& options) {
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected a zoom between 0.01 and 1000, found {}; 1 shows the whole scene", options.zoom));
-  if (options.frame && !((*options.frame)[0].allFinite() && (*options.frame)[1].allFinite() &&
-                         ((*options.frame)[1] - (*options.frame)[0]).norm() > 0))
+  if (options.frame && !has_extent(options.frame->places))
     throw Error(ErrorCode::bad_input,
-                "expected a frame with two different finite corners, found none; give it as six numbers such as "
+                "expected a frame with two different finite places, found none; give it as six numbers such as "
                 "0 0 0 1 1 1");
   if (!options.view_from.allFinite() || !(options.view_from.norm() > 1e-100) || options.view_from.norm() > 1e100)
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected a direction to look from, found {} {} {}; give three numbers such as 1 -1.6 0.9",
                     options.view_from.x(), options.view_from.y(), options.view_from.z()));
-}
-
-std::vector<Eigen::Vector3f> corners_of(const std::array<Eigen::Vector3f, 2>& box) {
-  std::vector<Eigen::Vector3f> corners;
-  for (const Eigen::Vector3f& a : box)
-    for (const Eigen::Vector3f& b : box)
-      for (const Eigen::Vector3f& c : box) corners.emplace_back(a.x(), b.y(), c.z());
-  return corners;
 }
 
 void check_volume(const sculpt::SceneVolume& volume, bool has_legend) {
@@ -105,9 +105,6 @@ std::vector<Eigen::Vector3f> places(const sculpt::Scene& scene) {
   if (scene.legend && !(std::isfinite(scene.legend->low) && std::isfinite(scene.legend->high)))
     throw Error(ErrorCode::bad_geometry, "expected a finite range of the legend, found " +
                                              fmt::format("{} to {}", scene.legend->low, scene.legend->high));
-  if (scene.framed.empty()) return all;
-  all.clear();
-  for (std::size_t i = 0; i < scene.framed.size(); ++i) add(scene.framed[i], "framed point", i);
   return all;
 }
 
@@ -119,8 +116,10 @@ class OffscreenRenderer final : public sculpt::Renderer {
   sculpt::Picture render(const sculpt::Scene& scene, const sculpt::PictureOptions& options) override {
     check(options);
     std::vector<Eigen::Vector3f> positions = places(scene);
+    const std::vector<Eigen::Vector3f> framed = options.frame ? options.frame->places : positions;
+    if (options.frame) positions.insert(positions.end(), framed.begin(), framed.end());
     const Place place = place_of(positions);
-    if (options.frame) positions = corners_of(*options.frame);
+    positions = framed;
     for (Eigen::Vector3f& position : positions) position = place(position);
 
     const float small =
@@ -128,15 +127,17 @@ class OffscreenRenderer final : public sculpt::Renderer {
     const float pixel = std::clamp(small, 0.75F, 5.0F);
     const bool has_room = options.width >= 160 && options.height >= 120;  // for legend and key
     const bool has_legend = scene.legend && has_room;
-    // A frame says itself what must be seen, so that pictures of one frame have one scale.
-    Margins free = options.frame ? Margins{} : margins(scene, options, pixel, has_legend);
-    if (has_room && !options.frame)
-      free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
+    // A frame that leaves no room says itself what must be seen.
+    const bool leaves_room = !options.frame || options.frame->leaves_room;
+    Margins free = leaves_room ? margins(scene, options, pixel, has_legend) : Margins{};
+    if (has_room && leaves_room) free.right = std::max(free.right, key_width(scene, font_, pixel, options.width));
     const Camera camera = framing_camera(positions, options, free);
 
+    options.progress.at(0);
     context_.make_current();
     painter_.load(scene, place, options);
     while (!painter_.is_shaded()) painter_.shade_on();
+    options.progress.at(0.3);
     if (scene.volume)
       painter_.set_volume(
           volume_picture(*scene.volume, *scene.legend, place, camera, options.width, options.height), options.width,
@@ -146,7 +147,7 @@ class OffscreenRenderer final : public sculpt::Renderer {
     sculpt::Picture picture;
     picture.width = options.width;
     picture.height = options.height;
-    draw(camera, sampling, picture);
+    draw(camera, sampling, picture, options.progress.part(0.3, 0.9));
     picture.cell_ids = draw_words(camera, sampling, &ScenePainter::paint_ids);
 
     Canvas canvas(picture, font_);
@@ -173,20 +174,26 @@ class OffscreenRenderer final : public sculpt::Renderer {
     Margins free;
     const double pixel_x = static_cast<double>(pixel) / options.width,
                  pixel_y = static_cast<double>(pixel) / options.height;
-    if (has_legend) free.right = std::max(free.right, legend_width(*scene.legend, font_, pixel, options.width));
-    if (!scene.arrows.empty() || !scene.cage_points.empty()) {
+    // What comes and goes from one picture of a frame to the next must not move the eye.
+    const bool framed = options.frame.has_value();
+    if (has_legend) {
+      sculpt::SceneLegend legend = *scene.legend;
+      if (framed && legend.names.empty()) legend.names = {"-0.0000 k" + legend.unit};  // its widest number
+      free.right = std::max(free.right, legend_width(legend, font_, pixel, options.width));
+    }
+    if (framed || !scene.arrows.empty() || !scene.cage_points.empty()) {
       free.left += 8 * pixel_x;
       free.right += 8 * pixel_x;
       free.top += 8 * pixel_y;
     }
-    if (!scene.pins.empty()) free.bottom += 18 * pixel_y;
+    if (framed || !scene.pins.empty()) free.bottom += 18 * pixel_y;
     if (!options.title.empty()) free.top += 30 * pixel_y;
     if (scene.felt) free.bottom += 30 * pixel_y;
     return free;
   }
 
   /// In strips from the bottom, each averaged over the samples of a pixel.
-  void draw(const Camera& camera, const Sampling& sampling, sculpt::Picture& picture) {
+  void draw(const Camera& camera, const Sampling& sampling, sculpt::Picture& picture, const Progress& progress) {
     const int factor = sampling.factor, columns = sampling.width * factor;
     const int rows = std::clamp(k_samples_at_once / (columns * factor), 1, sampling.height);
     const Target strip(context_.gl(), columns, rows * factor, true);
@@ -194,6 +201,7 @@ class OffscreenRenderer final : public sculpt::Renderer {
     std::vector<std::uint8_t> samples;
     for (int bottom = 0; bottom < sampling.height; bottom += rows) {
       const int height = std::min(rows, sampling.height - bottom);
+      progress.at(static_cast<double>(bottom) / sampling.height);
       strip.bind();
       painter_.paint(camera, sampling, 0, bottom * factor);
       strip.read(columns, height * factor, samples);
