@@ -70,15 +70,30 @@ std::optional<sculpt::ElementType> Desk::pointing() const {
   return sculpt::ElementType::faces;
 }
 
+const sculpt::Selection& Desk::selection() const {
+  static const sculpt::Selection k_nothing;
+  return now->state.selection ? *now->state.selection : k_nothing;
+}
+
+void Desk::choose(std::optional<sculpt::ElementType> type) {
+  settings.choosing = type;
+  pointed.reset();
+  settings.panel = Panel::tool;
+  show();
+}
+
+void Desk::drop_pending() {
+  if (pending.tool == nullptr) return;
+  pending = {};
+  workshop->preview({});
+}
+
 void Desk::take_tool(std::size_t index) {
   if (index >= shelf_tools().size()) return;
   settings.tool = index;
   settings.panel = Panel::tool;
   // A tool of the shelf works on clay: selecting is over.
-  if (pending.tool != nullptr) {
-    pending = {};
-    workshop->preview({});
-  }
+  drop_pending();
   settings.choosing.reset();
   show();
   if (*tool().name != '\0') brush.name = tool().name;

@@ -111,6 +111,12 @@ struct Desk {
   [[nodiscard]] const ShelfTool& tool() const { return shelf_tools()[settings.tool]; }
   /// What the pointer lights up: what is chosen in select mode, or faces for the tool that draws them out.
   [[nodiscard]] std::optional<sculpt::ElementType> pointing() const;
+  /// What is selected in the document, possibly nothing.
+  [[nodiscard]] const sculpt::Selection& selection() const;
+  /// Goes to select mode of these elements, or back to sculpting.
+  void choose(std::optional<sculpt::ElementType> type);
+  /// The tool that has been taken is laid down again, and its ghost with it.
+  void drop_pending();
   void run(const std::string& line) const { workshop->run(line); }
   void take_tool(std::size_t index);
   /// Takes the brush of a solid that was begun or opened.

@@ -89,16 +89,7 @@ void draw_menu_popup(Desk& desk, const Menu& menu, float x, float y, const Perfo
     tallest = std::max(tallest, filled);
   }
   const float width = column * static_cast<float>(columns + 1) + 2 * pad, height = tallest + 2 * pad;
-  ImGui::SetNextWindowPos({x, y});
-  ImGui::SetNextWindowSize({width, height});
-  if (!ImGui::BeginPopup(menu.name, ImGuiWindowFlags_NoMove)) return;
-  const Rect place{x, y, width, height};
-  ImDrawList& draw = ui.list();
-  draw.PushClipRectFullScreen();
-  ui.shadow(draw, place, k_corner);
-  draw.PopClipRect();
-  ui.box(draw, place, ui.tokens().raised);
-  ui.frame(draw, place, ui.tokens().outline);
+  if (!ui.begin_popup(menu.name, {x, y, width, height})) return;
   float at = y + pad;
   std::size_t now = 0;
   for (const Part& part : parts) {
@@ -107,7 +98,8 @@ void draw_menu_popup(Desk& desk, const Menu& menu, float x, float y, const Perfo
     const float left = x + pad + column * static_cast<float>(part.column);
     ui.set_cursor(left, at, column);
     if (part.group != nullptr) {
-      ui.text(draw, ui.fonts().small_strong, {left + ui.px(12), at, column, head}, ui.tokens().faint, part.group);
+      ui.text(ui.list(), ui.fonts().small_strong, {left + ui.px(12), at, column, head}, ui.tokens().faint,
+              part.group);
       ui.set_cursor(left, at + head, column);
       draw_commands(desk, part.group);
     } else {
@@ -115,7 +107,7 @@ void draw_menu_popup(Desk& desk, const Menu& menu, float x, float y, const Perfo
     }
     at += part.height;
   }
-  ImGui::EndPopup();
+  ui.end_popup();
 }
 
 }  // namespace

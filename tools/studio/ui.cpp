@@ -136,6 +136,23 @@ void Ui::end_panel() {
   ImGui::End();
 }
 
+bool Ui::begin_popup(const char* name, const Rect& place) {
+  ImGui::SetNextWindowPos(low(place));
+  ImGui::SetNextWindowSize({place.width, place.height});
+  if (!ImGui::BeginPopup(name, ImGuiWindowFlags_NoMove)) return false;
+  ImDrawList& draw = list();
+  draw.PushClipRectFullScreen();
+  shadow(draw, place, k_corner);
+  draw.PopClipRect();
+  box(draw, place, tokens_->raised);
+  frame(draw, place, tokens_->outline);
+  return true;
+}
+
+void Ui::end_popup() {
+  ImGui::EndPopup();
+}
+
 void Ui::set_cursor(float x, float y, float width) {
   x_ = x;
   y_ = y;

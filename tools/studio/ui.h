@@ -68,6 +68,9 @@ class Ui {
   // Panels. Between begin and end, rows are laid one below the other.
   void begin_panel(const char* name, const Rect& place, Ink fill, float corner, bool scrolls = false);
   void end_panel();
+  /// What ImGui::OpenPopup of this name opened, on a raised sheet; end_popup only if it is open.
+  bool begin_popup(const char* name, const Rect& place);
+  void end_popup();
   void set_cursor(float x, float y, float width);
   float cursor_y() const { return y_; }
   void skip(float height) { y_ += px(height); }
@@ -84,6 +87,9 @@ class Ui {
                   const std::function<void(double)>& preview = {});
   bool vector_row(const char* name, double (&values)[3], const NumberStyle& style);
   bool choice_row(const char* name, std::span<const std::string> options, std::size_t& chosen,
+                  const std::string& tooltip);
+  /// By the word that is chosen, of which `options` need not know.
+  bool choice_row(const char* name, std::span<const std::string> options, std::string& chosen,
                   const std::string& tooltip);
   bool toggle_row(const char* name, bool& on, const std::string& tooltip);
   void reading_row(const char* name, const std::string& number, const std::string& unit,

@@ -194,16 +194,8 @@ bool Ui::choice_row(const char* name, std::span<const std::string> options, std:
   if (top + height > ImGui::GetIO().DisplaySize.y) top = std::max(px(4), row.value.y - height - px(2));
   float widest = row.value.width;
   for (const std::string& option : options) widest = std::max(widest, width_of(fonts_.text, option) + px(48));
-  ImGui::SetNextWindowPos({row.value.right() - widest, top});
-  ImGui::SetNextWindowSize({widest, height});
-  if (ImGui::BeginPopup("options", ImGuiWindowFlags_NoMove)) {
-    const Rect place{row.value.right() - widest, top, widest, height};
-    ImDrawList& above = list();
-    above.PushClipRectFullScreen();
-    shadow(above, place, k_corner);
-    box(above, place, tokens_->raised);
-    frame(above, place, tokens_->outline);
-    above.PopClipRect();
+  const Rect place{row.value.right() - widest, top, widest, height};
+  if (begin_popup("options", place)) {
     const float x = x_, y = y_, width = width_;
     set_cursor(place.x + px(4), place.y + px(6) - ImGui::GetScrollY(), place.width - px(8));
     for (std::size_t i = 0; i < options.size(); ++i)
@@ -213,10 +205,18 @@ bool Ui::choice_row(const char* name, std::span<const std::string> options, std:
         ImGui::CloseCurrentPopup();
       }
     set_cursor(x, y, width);
-    ImGui::EndPopup();
+    end_popup();
   }
   ImGui::PopID();
   return changed;
+}
+
+bool Ui::choice_row(const char* name, std::span<const std::string> options, std::string& chosen,
+                    const std::string& tooltip) {
+  auto at = static_cast<std::size_t>(std::find(options.begin(), options.end(), chosen) - options.begin());
+  if (!choice_row(name, options, at, tooltip)) return false;
+  chosen = options[at];
+  return true;
 }
 
 bool Ui::text_field(const char* name, const Rect& place, std::string& line, const char* hint, bool take_focus,
