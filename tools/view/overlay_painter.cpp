@@ -7,8 +7,6 @@ namespace argil::view {
 namespace {
 
 constexpr std::array<Attribute, 3> k_triangle_attributes{{{0, 3}, {1, 3}, {2, 4}}};
-constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
-constexpr std::array<Attribute, 1> k_dot_attributes{{{0, 3}}};
 constexpr float k_behind = 0.4F;           // what is left of what lies behind the surface
 constexpr float k_veil_forward = 0.0006F;  // towards the eye, so that it lies over the surface, under its wires
 
@@ -74,7 +72,7 @@ void OverlayPainter::set(const Overlay& overlay, const Place& place) {
     std::vector<Eigen::Vector3f> at;
     for (const Eigen::Vector3f& dot : set.at) at.push_back(place(dot));
     dots_.push_back({std::make_unique<VertexArray>(*gl_), set.tint, set.ring, set.radius, set.through});
-    dots_.back().array->set(at, k_dot_attributes, 1);
+    dots_.back().array->set(at, k_place_attributes, 1);
   }
 }
 

@@ -10,8 +10,6 @@ namespace argil::view {
 
 namespace {
 
-constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
-constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
 constexpr float k_hidden_pin = 0.32F;
 constexpr float k_wire_in_volume = 0.45F;
@@ -156,9 +154,9 @@ void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place,
     for (const Eigen::Vector3f& position : all) result.push_back(place(position));
     return result;
   };
-  cage_points_.set(placed(scene.cage_points), k_mark_attributes, 1);
-  handles_.set(placed(scene.handles), k_mark_attributes, 1);
-  pins_.set(placed(scene.pins), k_mark_attributes, 1);
+  cage_points_.set(placed(scene.cage_points), k_place_attributes, 1);
+  handles_.set(placed(scene.handles), k_place_attributes, 1);
+  pins_.set(placed(scene.pins), k_place_attributes, 1);
   felt_ = scene.felt ? static_cast<float>(std::clamp(scene.felt->share, 0.0, 1.0)) : 0.0F;
   arrow_tint_.reset();
   arrow_ends_.clear();
