@@ -51,7 +51,8 @@ const std::array<ActionInfo, k_action_count>& action_table() {
        "Tool", "Shift-F"},
       {brush_smaller, "brush_smaller", "Smaller brush", "Makes the brush smaller by a tenth", "Tool", "["},
       {brush_larger, "brush_larger", "Larger brush", "Makes the brush larger by a tenth", "Tool", "]"},
-      {symmetry, "symmetry", "Symmetry", "Works on both sides of the plane x = 0", "Tool", "X"},
+      {symmetry, "symmetry", "Symmetry", "Works on both sides of the middle, along x; its plane shows", "Tool",
+       "X"},
       {keep_shape, "keep_shape", "Keep the shape", "After a stroke the new shape is the shape at rest", "Tool",
        "K"},
       {cut_away, "cut_away", "Cut away", "Shows the inside; the wheel moves the plane", "View", "C"},
@@ -118,6 +119,8 @@ const std::array<ActionInfo, k_action_count>& action_table() {
       {mask_unselected, "mask_unselected", "Mask all else", "Protects all that is not selected", "Tool",
        "Ctrl-Shift-K"},
       {peel, "peel", "Peel", "Takes layers of cells away from the boundary; the wheel peels deeper", "View", "P"},
+      {set_key, "set_key", "Set a key…", "Keys gravity, a force, a pin or an obstacle as it is at this time",
+       "Physics", "I"},
   }};
   return table;
 }
@@ -140,6 +143,7 @@ const std::vector<Gesture>& gestures() {
       {"Ctrl held", "inverts the tool"},
       {"Shift held", "smooths; on a number, drags finely"},
       {"Double click a number", "resets it"},
+      {"Drag a key of the timeline", "moves it; right click or Del on it removes it"},
   };
   return all;
 }

@@ -66,6 +66,16 @@ struct CurveLaid {
   bool finished = false;
 };
 
+/// A mark of the timeline under the pointer, or held by it [s].
+struct KeyMark {
+  std::optional<double> pointed;  // as of the last frame
+  std::optional<double> held;     // the time that it had
+  double to = 0;                  // where it is dragged
+  bool dropped = false;           // by Esc, until the button goes up
+  std::optional<double> menu;     // whose menu is open
+  bool wants_key_menu = false;
+};
+
 /// What has the keyboard in front of everything else.
 enum class Dialogue { none, search, keys, open, save, samples, unsaved, devices };
 
@@ -82,6 +92,7 @@ struct Desk {
   std::optional<std::uint32_t> pointed;  // the element under the pointer in select mode
   PendingEdit pending;
   CurveLaid curve;
+  KeyMark key_mark;
   bool wants_context_menu = false;                                      // where the pointer is
   std::array<float, 2> context_menu_at{-1, -1};                         // where it stands open [pixels]
   Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame

@@ -42,6 +42,16 @@ void finish(Desk& desk, fs::path file, bool saves) {
   desk.workshop->post([file, saves](Bench& bench) { saves ? bench.save(file) : bench.open(file); });
 }
 
+/// Whether a session that is saved as `typed` would take the place of another file, as far as the disk was asked.
+bool would_replace(const Desk& desk) {
+  if (!desk.now->listing || desk.now->listing->typed != desk.typed) return false;
+  std::string name = fs::path(desk.typed).filename().string();
+  if (!name.ends_with(".argil")) name += ".argil";
+  const auto& names = desk.now->listing->names;
+  const bool is_there = std::find(names.begin(), names.end(), name) != names.end();
+  return is_there && desk.now->listing->folder / name != fs::path(desk.now->file);
+}
+
 void draw_title(Desk& desk, const Rect& place, const char* title, const std::string& note) {
   Ui& ui = *desk.ui;
   const Rect line{place.x + ui.px(20), place.y + ui.px(10), place.width - ui.px(40), ui.px(28)};
@@ -82,9 +92,22 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
       }
     }
   const float y = place.bottom() - ui.px(48);
+  const bool replaces = saves && would_replace(desk);
+  if (replaces) {
+    ui.text(ui.list(), ui.fonts().small_strong, {place.x + ui.px(20), y, wide, ui.px(32)}, ui.tokens().warning,
+            "There is another file of this name");
+    ui.note_control(ControlKind::reading, "Would replace", "Saving puts the session in its place", "",
+                    {place.x + ui.px(20), y, ui.px(280), ui.px(32)});
+  }
   const bool done =
       ui.text_button(saves ? "Save now" : "Open now", {place.right() - ui.px(116), y, ui.px(100), ui.px(32)},
-                     saves ? "Save" : "Open", true, saves ? "Writes the session" : "Opens the file");
+                     replaces ? "Replace"
+                     : saves  ? "Save"
+                              : "Open",
+                     true,
+                     replaces ? "Writes the session in the place of the file that is there"
+                     : saves  ? "Writes the session"
+                              : "Opens the file");
   if (ui.text_button("Leave", {place.right() - ui.px(224), y, ui.px(100), ui.px(32)}, "Cancel", false,
                      "Leaves all as it is"))
     desk.dialogue = Dialogue::none;

@@ -109,7 +109,8 @@ void draw_physics_panel(Desk& desk, float x, float width) {
   double g[3] = {gravity.x(), gravity.y(), gravity.z()};
   if (ui.vector_row("Gravity", g,
                     {.unit = "m/s²", .tooltip = "Acceleration; on earth 0 0 -9.81", .low = -1e3, .high = 1e3}))
-    desk.run(fmt::format("gravity {} {} {}", g[0], g[1], g[2]));
+    desk.run(
+        fmt::format("{}gravity {} {} {}", now.state.loads->gravity_track.empty() ? "" : "key ", g[0], g[1], g[2]));
   ui.reading_row("Held points", fmt::format("{}", now.pinned), "",
                  "Control points that do not move; paint more with Pin");
   ui.section("Refinement");

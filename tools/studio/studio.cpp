@@ -12,6 +12,7 @@
 #include "tools/studio/key_editor.h"
 #include "tools/studio/panels.h"
 #include "tools/studio/plots.h"
+#include "tools/studio/timeline.h"
 #include "tools/studio/ui_renderer.h"
 #include "tools/studio/work_notes.h"
 
@@ -73,6 +74,7 @@ Studio::~Studio() {
 }
 
 void Studio::perform(Action action) {
+  if (desk_.dialogue == Dialogue::none && perform_on_timeline(desk_, action)) return;
   if (action == Action::cancel) {
     if (workshop_->work())
       workshop_->cancel_work();

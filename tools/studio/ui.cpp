@@ -32,6 +32,16 @@ float Ui::width_of(ImFont* font, std::string_view line) const {
   return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, line.data(), line.data() + line.size()).x;
 }
 
+std::string Ui::fitted(ImFont* font, std::string_view line, float width) const {
+  const char* const end = line.data() + line.size();
+  const char* cut = end;
+  font->CalcTextSizeA(font->FontSize, width, 0, line.data(), end, &cut);
+  if (cut == end) return std::string(line);
+  cut = line.data();
+  font->CalcTextSizeA(font->FontSize, std::max(0.0F, width - width_of(font, "…")), 0, line.data(), end, &cut);
+  return std::string(line.data(), cut) + "…";
+}
+
 void Ui::text(ImDrawList& draw, ImFont* font, const Rect& place, Ink colour, std::string_view line,
               Side side) const {
   const float width = width_of(font, line);
@@ -99,19 +109,24 @@ void Ui::end_frame() {
   // Over an open menu only its own lines explain themselves.
   const bool menu_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   if (rested_ < 0.45 || under->tooltip.empty() || (menu_open && under->place.y < px(k_menu_height))) return;
+  draw_tip(under->place, under->tooltip, tokens_->text);
+}
+
+void Ui::draw_tip(const Rect& of, const std::string& words, Ink colour) const {
+  const ImGuiIO& io = ImGui::GetIO();
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
   const float most = px(300), margin = px(10);
-  const ImVec2 size = fonts_.small->CalcTextSizeA(fonts_.small->FontSize, FLT_MAX, most, under->tooltip.c_str());
-  Rect place{under->place.x, under->place.bottom() + px(6), size.x + 2 * margin, size.y + 1.4F * margin};
+  const ImVec2 size = fonts_.small->CalcTextSizeA(fonts_.small->FontSize, FLT_MAX, most, words.c_str());
+  Rect place{of.x, of.bottom() + px(6), size.x + 2 * margin, size.y + 1.4F * margin};
   // Beside what is narrow and at a side, else below; within the window in any case.
-  if (under->place.x < px(80)) place.x = under->place.right() + px(10), place.y = under->place.y;
+  if (of.x < px(80)) place.x = of.right() + px(10), place.y = of.y;
   place.x = std::clamp(place.x, px(4), std::max(px(4), io.DisplaySize.x - place.width - px(6)));
-  if (place.bottom() > io.DisplaySize.y - px(6)) place.y = under->place.y - place.height - px(6);
+  if (place.bottom() > io.DisplaySize.y - px(6)) place.y = of.y - place.height - px(6);
   shadow(draw, place, 4);
   box(draw, place, tokens_->raised, 4);
   frame(draw, place, tokens_->outline, 4);
-  draw.AddText(fonts_.small, fonts_.small->FontSize, {place.x + margin, place.y + 0.7F * margin}, tokens_->text,
-               under->tooltip.c_str(), nullptr, most);
+  draw.AddText(fonts_.small, fonts_.small->FontSize, {place.x + margin, place.y + 0.7F * margin}, colour,
+               words.c_str(), nullptr, most);
 }
 
 void Ui::begin_panel(const char* name, const Rect& place, Ink fill, float corner, bool scrolls) {
@@ -195,16 +210,19 @@ bool Ui::icon_button(const char* name, const Rect& place, const Icon& sign, bool
 }
 
 bool Ui::text_button(const char* name, const Rect& place, const std::string& label, bool primary,
-                     const std::string& tooltip) {
+                     const std::string& tooltip, bool enabled) {
   bool hovered = false, held = false;
-  const bool pressed = press(name, place, hovered, held);
+  const bool pressed = press(name, place, hovered, held) && enabled;
   ImDrawList& draw = list();
   if (primary)
     box(draw, place, held ? faded(tokens_->accent, 0.8F) : tokens_->accent);
   else
-    box(draw, place, hovered ? tokens_->outline : tokens_->well);
-  text(draw, primary ? fonts_.strong : fonts_.text, place, primary ? tokens_->on_accent : tokens_->text, label,
-       Side::centre);
+    box(draw, place, hovered && enabled ? tokens_->outline : tokens_->well);
+  text(draw, primary ? fonts_.strong : fonts_.text, place,
+       !enabled  ? tokens_->faint
+       : primary ? tokens_->on_accent
+                 : tokens_->text,
+       label, Side::centre);
   note_control(ControlKind::button, name, tooltip, "", place);
   return pressed;
 }
@@ -280,8 +298,10 @@ bool Ui::list_row(const std::string& name, const std::string& shortcut, bool mar
     box(draw, place, chosen ? faded(tokens_->accent, 0.22F) : tokens_->outline, 4);
   const float left = px(28), margin = px(12);
   if (marked) icon(draw, {place.x, place.y, left, place.height}, tokens_->accent, icons::check, true);
-  text(draw, fonts_.text, {place.x + left, place.y, place.width, place.height},
-       enabled ? tokens_->text : tokens_->faint, name);
+  const float room =
+      place.width - left - margin - (shortcut.empty() ? 0 : width_of(fonts_.small, shortcut) + px(10));
+  text(draw, fonts_.text, {place.x + left, place.y, room, place.height}, enabled ? tokens_->text : tokens_->faint,
+       fitted(fonts_.text, name, room));
   text(draw, fonts_.small, {place.x, place.y, place.width - margin, place.height}, tokens_->faint, shortcut,
        Side::right);
   note_control(ControlKind::button, name, tooltip, "", place);

@@ -80,7 +80,7 @@ class Ui {
   bool icon_button(const char* name, const Rect& place, const Icon& icon, bool active, const std::string& tooltip,
                    bool enabled = true);
   bool text_button(const char* name, const Rect& place, const std::string& label, bool primary,
-                   const std::string& tooltip);
+                   const std::string& tooltip, bool enabled = true);
   bool tab(const char* name, const Rect& place, bool active, const std::string& tooltip);
   /// True when a new value is set; while the pointer drags, `preview` takes each value.
   bool number_row(const char* name, double& value, const NumberStyle& style,
@@ -108,6 +108,8 @@ class Ui {
             Side side = Side::left) const;
   void icon(ImDrawList& list, const Rect& place, Ink colour, const Icon& icon, bool small = false) const;
   float width_of(ImFont* font, std::string_view text) const;
+  /// The line, or as much of it as has room before an ellipsis.
+  [[nodiscard]] std::string fitted(ImFont* font, std::string_view text, float width) const;
   void box(ImDrawList& list, const Rect& place, Ink colour, float corner = k_corner) const;
   void frame(ImDrawList& list, const Rect& place, Ink colour, float corner = k_corner) const;
   void shadow(ImDrawList& list, const Rect& place, float corner) const;
@@ -122,6 +124,8 @@ class Ui {
   Row next_row();
   bool number_box(const char* name, const Rect& place, double& value, const NumberStyle& style,
                   const std::function<void(double)>& preview);
+  /// A sheet with these words at a control, over everything.
+  void draw_tip(const Rect& of, const std::string& words, Ink colour) const;
   bool press(const char* name, const Rect& place, bool& hovered, bool& held);
 
   const Tokens* tokens_;

@@ -73,7 +73,7 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
         if (typed < style.low || typed > style.high) {
           const Quantity from = shown(style.low, style.unit), to = shown(style.high, style.unit);
           throw Error(ErrorCode::bad_input, "expected " + from.number + ' ' + from.unit + " to " + to.number + ' ' +
-                                                to.unit + "; choose a value within");
+                                                to.unit + ", found " + std::string(edited_));
         }
         changed = typed != value;
         value = typed;
@@ -81,14 +81,19 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
       } catch (const Error& error) {
         edit_failed_ = true;
         edit_error_ = error.what();
-        if (left) editing_ = 0;
+        // It stays, with what is wrong, until it is mended or left.
+        if (entered)
+          editing_waits_ = k_focus_frames;
+        else
+          editing_ = 0;
       }
     } else if (left) {
       editing_ = 0;
     }
     ImGui::PopID();
-    note_control(ControlKind::number, name, editing_ == id && edit_failed_ ? edit_error_ : style.tooltip,
-                 style.unit, place);
+    const bool fails = editing_ == id && edit_failed_;
+    if (fails) draw_tip(place, edit_error_, tokens_->warning);
+    note_control(ControlKind::number, name, fails ? "" : style.tooltip, style.unit, place);
     return changed;
   }
 
