@@ -190,5 +190,24 @@ TEST(FirstDay, SavingOverAnotherFileIsSaidBefore) {
   EXPECT_FALSE(typed(other.string()));
 }
 
+TEST(FirstDay, AnOpenMenuExplainsItsOwnLinesAlone) {
+  Offscreen window(small_window("day_menu_tips"));
+  const auto shot = [&](const std::string& under) {
+    // The pointer lies on a control of the panel that the menu covers or not.
+    const Control* control = window.studio().ui().find(under);
+    EXPECT_NE(control, nullptr);
+    window.move(control->place.x + 20, control->place.y + 10);
+    window.wait(5);
+    const sculpt::Picture at_once = window.picture();
+    window.wait(40);
+    return window.picture().rgba != at_once.rgba;
+  };
+  EXPECT_TRUE(shot("Force limit"));
+  window.click("File");
+  window.wait(3);
+  EXPECT_FALSE(shot("Force limit"));
+  EXPECT_TRUE(shot("Turntable"));
+}
+
 }  // namespace
 }  // namespace argil::studio

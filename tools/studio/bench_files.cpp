@@ -54,6 +54,7 @@ void Bench::open(const std::filesystem::path& wanted) {
       if (run_together({fmt::format("open \"{}\"", file.filename().string()), "levels 1"})) {
         mark_saved({});
         used(file);
+        say(MessageKind::note, "opened " + file.filename().string());
       }
     } else {
       const auto lines = io::parse_session(io::read_file(file), file.filename().string());
@@ -61,6 +62,7 @@ void Bench::open(const std::filesystem::path& wanted) {
       run_all(lines);
       mark_saved(file);
       used(file);
+      say(MessageKind::note, "opened " + file.filename().string());
     }
   } catch (const Error& error) {
     say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
@@ -76,6 +78,7 @@ void Bench::open_sample(const std::filesystem::path& file) {
     begin_session(file.parent_path());
     run_all(lines);
     mark_saved({});
+    say(MessageKind::note, "opened a copy of the sample " + file.stem().string());
   } catch (const Error& error) {
     say(MessageKind::error, error.where().empty() ? error.what() : error.where() + ": " + error.what());
   }

@@ -39,8 +39,10 @@ void draw_status(Desk& desk, const Layout& layout) {
     x += ui.width_of(font, line);
   };
   const auto begin = [&] { return x; };
+  std::vector<float> ends;  // of the readings
   const auto end = [&](float from, const char* name, const char* tooltip, const char* unit) {
     ui.note_control(ControlKind::reading, name, tooltip, unit, {from, place.y, x - from, place.height});
+    ends.push_back(x);
     x += ui.px(26);
   };
   float from = begin();
@@ -99,7 +101,12 @@ void draw_status(Desk& desk, const Layout& layout) {
   line = ui.fitted(ui.fonts().small, line, right - least);
   const float width = ui.width_of(ui.fonts().small, line);
   const Rect said{right - width, place.y, width, place.height};
-  if (said.x < x) ui.box(draw, {said.x - ui.px(14), place.y, place.width - said.x, place.height}, t.status, 0);
+  if (said.x < x) {
+    float whole_until = 0;
+    for (const float reading : ends)
+      if (reading < said.x - ui.px(10)) whole_until = reading;
+    ui.box(draw, {whole_until, place.y, place.width - whole_until, place.height}, t.status, 0);
+  }
   ui.text(draw, ui.fonts().small, said, colour, line);
   if (!whole.empty())
     ui.note_control(ControlKind::reading, "Message",

@@ -103,7 +103,7 @@ void draw_card(Desk& desk, const Layout& layout) {
             k_first[i].strong != nullptr ? k_first[i].strong : size_key, Side::centre);
     ui.text(draw, ui.fonts().small, {x, y + ui.px(74), column, ui.px(20)}, t.quiet, k_first[i].rest, Side::centre);
   }
-  ui.note_control(ControlKind::reading, "First minute", "The first gestures", "", place);
+  ui.note_control(ControlKind::reading, "First minute", "The first gestures; Help has them again", "", place);
   if (ui.icon_button("Close the card", {place.right() - ui.px(28), place.y + ui.px(4), ui.px(24), ui.px(24)},
                      icons::cross, false, "Closes the card; Help has it again"))
     desk.card = false;

@@ -97,8 +97,9 @@ bool Ui::press(const char* name, const Rect& place, bool& hovered, bool& held) {
 void Ui::end_frame() {
   const ImGuiIO& io = ImGui::GetIO();
   const Control* under = nullptr;
+  const bool in_menu = popup_[1] > popup_[0];
   if (io.WantCaptureMouse && !ImGui::IsMouseDown(0))
-    for (std::size_t i = front_; i < controls_.size(); ++i)
+    for (std::size_t i = in_menu ? popup_[0] : front_; i < (in_menu ? popup_[1] : controls_.size()); ++i)
       if (controls_[i].place.contains(io.MousePos.x, io.MousePos.y)) under = &controls_[i];
   if (under == nullptr || under->name != rest_on_) {
     rest_on_ = under != nullptr ? under->name : "";
@@ -106,9 +107,7 @@ void Ui::end_frame() {
     return;
   }
   rested_ += io.DeltaTime;
-  // Over an open menu only its own lines explain themselves.
-  const bool menu_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-  if (rested_ < 0.45 || under->tooltip.empty() || (menu_open && under->place.y < px(k_menu_height))) return;
+  if (rested_ < 0.45 || under->tooltip.empty()) return;
   draw_tip(under->place, under->tooltip, tokens_->text);
 }
 
@@ -161,10 +160,12 @@ bool Ui::begin_popup(const char* name, const Rect& place) {
   draw.PopClipRect();
   box(draw, place, tokens_->raised);
   frame(draw, place, tokens_->outline);
+  popup_ = {controls_.size(), controls_.size()};
   return true;
 }
 
 void Ui::end_popup() {
+  popup_[1] = controls_.size();
   ImGui::EndPopup();
 }
 

@@ -4,6 +4,7 @@
 // every number its unit; what is drawn in a frame is listed, so that a test can hold all controls to that and a
 // script can press them by name.
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -56,6 +57,7 @@ class Ui {
   void begin_frame() {
     controls_.clear();
     front_ = 0;
+    popup_ = {0, 0};
   }
   /// What is drawn from here on lies before all else: only it explains itself.
   void come_to_front() { front_ = controls_.size(); }
@@ -133,6 +135,7 @@ class Ui {
   float scale_;
   std::vector<Control> controls_;
   std::size_t front_ = 0;
+  std::array<std::size_t, 2> popup_{0, 0};  // what the open menu has: while there is one, only that explains itself
   float x_ = 0, y_ = 0, width_ = 0;
   // The number that is typed or dragged.
   unsigned editing_ = 0, dragging_ = 0;
