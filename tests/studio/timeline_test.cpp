@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/studio/windows.h"
 #include "tools/studio/keyed.h"
 
@@ -115,6 +117,23 @@ TEST(Timeline, TheMenuOfAKeySaysHowItGoesOn) {
   window.click("    step");
   window.wait(3);
   EXPECT_EQ(gravity(window).interpolation, sculpt::Interpolation::step);
+  // Its value is a line that one goes on writing at.
+  window.move(at.x(), at.y());
+  window.wait(2);
+  window.button(1, true);
+  window.button(1, false);
+  window.wait(2);
+  window.click("Value of gravity…");
+  window.wait(4);
+  EXPECT_EQ(window.studio().desk().typed, "key gravity 0 0 -1 at 0.5");
+  for (int i = 0; i < 3; ++i) {
+    window.press("Backspace");
+    window.wait();
+  }
+  window.type("0.25");
+  window.press("Enter");
+  window.wait(3);
+  EXPECT_EQ(gravity(window).times, (std::vector<double>{0, 0.25, 0.5}));
 }
 
 TEST(Timeline, IKeysWhatIsChosenAsItIsNow) {
@@ -155,6 +174,12 @@ TEST(Timeline, IKeysWhatIsChosenAsItIsNow) {
   EXPECT_EQ(document(window).state().pins->motions[0].members.ids.size(), 16U);
   EXPECT_EQ(window.now().undo_depth, depth + 3);
   EXPECT_EQ(hash(window), hash_of_journal(window, "timeline_set_replayed"));
+  // Once it is led, it is offered by its name alone.
+  const auto offered = keyable(document(window).state());
+  EXPECT_EQ(std::count_if(offered.begin(), offered.end(),
+                          [](const Keyable& one) { return one.label.starts_with("the selection"); }),
+            0);
+  EXPECT_EQ(offered.back().label, "pin held_1");
   window.press("Ctrl-Z");  // all three lines at once
   window.wait(2);
   EXPECT_TRUE(document(window).state().pins->motions.empty());

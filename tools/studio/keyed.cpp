@@ -68,6 +68,11 @@ std::vector<double> key_times(const sculpt::State& state) {
   return times;
 }
 
+std::string line_to_set_key(const Keyed& one, double time) {
+  return fmt::format("key {} {} at {}", one.name, value_words(sculpt::value_at(one.track, time), true),
+                     io::format_number(time));
+}
+
 std::string words_at(const sculpt::State& state, double time) {
   std::string words;
   for (const Keyed& one : keyed(state)) {
@@ -103,7 +108,15 @@ std::vector<Keyable> keyable(const sculpt::State& state) {
   const auto way = [&](const sculpt::Track& track) {
     return track.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(6)) : sculpt::value_at(track, now);
   };
-  if (state.selection && !state.selection->ids.empty() && state.selection->type != sculpt::ElementType::nodes) {
+  // What is led already is keyed by its own name, further down.
+  const auto is_led = [&](const sculpt::Selection& selection) {
+    return std::any_of(state.pins->motions.begin(), state.pins->motions.end(),
+                       [&](const sculpt::PinMotion& motion) {
+                         return motion.members.type == selection.type && motion.members.ids == selection.ids;
+                       });
+  };
+  if (state.selection && !state.selection->ids.empty() && state.selection->type != sculpt::ElementType::nodes &&
+      !is_led(*state.selection)) {
     const char* type = sculpt::word(state.selection->type);
     const std::string name = free_name(state);
     all.push_back(

@@ -19,6 +19,8 @@ struct Keyed {
 [[nodiscard]] std::vector<Keyed> keyed(const sculpt::State& state);
 /// Their times, ascending, each once [s].
 [[nodiscard]] std::vector<double> key_times(const sculpt::State& state);
+/// The line that sets the key of a time again, to be given other numbers. It has a key then.
+[[nodiscard]] std::string line_to_set_key(const Keyed& one, double time);
 /// What they say at a time, as "gravity 0 0 -9.81 m/s²", one after the other.
 [[nodiscard]] std::string words_at(const sculpt::State& state, double time);
 

@@ -114,7 +114,7 @@ void draw_mark_menu(Desk& desk, const Layout& layout, const Stretch& stretch) {
   std::vector<Keyed> there;
   for (Keyed& one : keyed(state))
     if (one.track.has_key(*mark.menu)) there.push_back(std::move(one));
-  const std::size_t rows = there.size() * 4 + (there.size() > 1 ? 1 : 0);
+  const std::size_t rows = there.size() * 5 + (there.size() > 1 ? 1 : 0);
   const Rect place = above_timeline(ui, layout, stretch.at(*mark.menu), rows, 0);
   if (!ui.begin_popup(k_mark_menu, place)) {
     mark.menu.reset();
@@ -129,6 +129,11 @@ void draw_mark_menu(Desk& desk, const Layout& layout, const Stretch& stretch) {
     ImGui::CloseCurrentPopup();
   };
   for (const Keyed& one : there) {
+    if (ui.list_row("Value of " + one.name + "…", "", false, false,
+                    "Shows the line that set this key, to be given other numbers")) {
+      desk.open_dialogue(Dialogue::search, line_to_set_key(one, time));
+      ImGui::CloseCurrentPopup();
+    }
     row("Remove key of " + one.name, seconds(time), false, "Takes this key away",
         {fmt::format("key {} remove at {}", one.name, io::format_number(time))});
     for (const auto way :
