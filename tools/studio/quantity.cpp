@@ -94,14 +94,14 @@ class Parser {
   double whole() {
     const double value = sum();
     skip();
-    if (!left_.empty()) fail("the end");
+    if (!left_.empty()) fail(unit_.empty() ? "nothing more" : "a unit as " + unit_);
     if (!std::isfinite(value))
       throw Error(ErrorCode::bad_input, "expected a finite number; look for a division by 0");
     return has_unit_ ? value : value * factor_of(default_unit_);
   }
 
  private:
-  [[noreturn]] void fail(const char* expected) const {
+  [[noreturn]] void fail(const std::string& expected) const {
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected {} at '{}' of '{}'; write a number{}, as in {}", expected, left_, all_,
