@@ -183,6 +183,7 @@ TEST(FirstDay, SavingOverAnotherFileIsSaidBefore) {
   EXPECT_FALSE(typed((other.parent_path() / "mine.argil").string()));
   window.press("Esc");
   EXPECT_TRUE(typed((other.parent_path() / "theirs").string()));
+  EXPECT_EQ(window.now().listing->whole, std::filesystem::canonical(other.parent_path()));
   window.click("Save now");
   window.wait(4);
   EXPECT_TRUE(window.now().saved);

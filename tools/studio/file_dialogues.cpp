@@ -52,6 +52,17 @@ bool would_replace(const Desk& desk) {
   return is_there && desk.now->listing->folder / name != fs::path(desk.now->file);
 }
 
+/// As many of its last folders as have room.
+std::string end_of_path(const Ui& ui, const fs::path& path, float width) {
+  std::string text = path.string();
+  while (ui.width_of(ui.fonts().small, text) > width) {
+    const std::size_t slash = text.find('/', text.starts_with("…") ? std::string("…/").size() : 1);
+    if (slash == text.npos) return ui.fitted(ui.fonts().small, text, width);
+    text = "…" + text.substr(slash);
+  }
+  return text;
+}
+
 void draw_title(Desk& desk, const Rect& place, const char* title, const std::string& note) {
   Ui& ui = *desk.ui;
   const Rect line{place.x + ui.px(20), place.y + ui.px(10), place.width - ui.px(40), ui.px(28)};
@@ -72,7 +83,8 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
   const float high = ui.px(44) + field + row * static_cast<float>(shown.size()) + ui.px(62);
   const Rect place{0.5F * (static_cast<float>(width) - wide), ui.px(90), wide, high};
   open_sheet(desk, "file", place, width, height);
-  draw_title(desk, place, saves ? "Save the session" : "Open a session or a mesh", "");
+  draw_title(desk, place, saves ? "Save the session" : "Open a session or a mesh",
+             desk.now->listing ? end_of_path(ui, desk.now->listing->whole, wide - ui.px(230)) : "");
   const Rect box{place.x + ui.px(16), place.y + ui.px(46), wide - ui.px(32), ui.px(36)};
   ui.box(ui.list(), box, ui.tokens().well);
   ui.frame(ui.list(), box, ui.tokens().accent);
