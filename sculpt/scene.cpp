@@ -234,7 +234,10 @@ SceneLegend field_legend(std::span<const double> values, const std::string& titl
   if (low > 0 && low < 0.5 * high) low = 0;
   // A field that is the same everywhere, but for rounding, gets one colour and not the whole range.
   const double largest = std::max(std::abs(low), std::abs(high));
-  if (largest < 1e-12) {
+  // Of a body at rest rounding leaves that much: as stress 1e-15 of the stiffest modulus, as length and strain
+  // less.
+  const double nothing = unit == "Pa" ? 1e-3 : 1e-12;
+  if (largest < nothing) {
     low = 0;
     high = unit == "%" ? 0.01 : 1;
   } else if (high - low < 1e-5 * largest) {

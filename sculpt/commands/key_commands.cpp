@@ -96,6 +96,27 @@ void remove_keys(Track& track, const Arguments& arguments, const std::string& wh
   }
 }
 
+/// Takes the key at a time to another, with its value.
+void move_key(Track& track, const Arguments& arguments, const std::string& what) {
+  for (const char* other : {"value", "path", "move", "rotate", "axis", "about", "interpolation", "remove"})
+    if (arguments.has(other))
+      throw Error(ErrorCode::bad_input, fmt::format("`to` moves a key as it is; leave out {}", other));
+  if (!arguments.has("at"))
+    throw Error(ErrorCode::bad_input, "which key is to be moved? Give its time, as in `key gravity at 0.5 to 0.8`");
+  const double from = arguments.number("at"), to = arguments.number("to");
+  if (!track.has_key(from))
+    throw Error(ErrorCode::not_found, track.empty() ? fmt::format("{} has no keys", what)
+                                                    : fmt::format("{} has no key at {:g} s; there are keys at {} s",
+                                                                  what, from, listed(track)));
+  const Eigen::VectorXd value = value_at(track, from);
+  remove_key(track, from);
+  if (track.has_key(to))
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{} has a key at {:g} s already; take that away before, or choose another time", what, to));
+  set_key(track, to, value);
+}
+
 void refuse(const Arguments& arguments, std::initializer_list<const char*> names, const std::string& why) {
   for (const char* name : names)
     if (arguments.has(name)) throw Error(ErrorCode::bad_input, fmt::format("{}; leave out {}", why, name));
@@ -112,6 +133,7 @@ void key_vector(Session& session, const Arguments& arguments, Eigen::Vector3d& c
     if (track.empty()) constant = present;
     return;
   }
+  if (arguments.has("to")) return move_key(track, arguments, what);
   std::optional<Eigen::VectorXd> value;
   if (arguments.has("value")) value = arguments.vector("value");
   add_keys(track, new_keys(arguments, value, 3, now), now, present, what, session);
@@ -219,7 +241,7 @@ void key_pin(Session& session, const Arguments& arguments, State& next) {
                        [](const PinMotion& motion, const std::string& of) { return motion.name < of; });
   const bool known = place != motions.end() && place->name == name;
   const std::string what = fmt::format("the pin '{}'", name);
-  if (arguments.has("remove")) {
+  if (arguments.has("remove") || arguments.has("to")) {
     if (!known) {
       std::vector<std::string> names;
       for (const PinMotion& motion : motions) names.push_back(motion.name);
@@ -227,7 +249,10 @@ void key_pin(Session& session, const Arguments& arguments, State& next) {
                                                     near_names_hint(name, names)));
     }
     settle(*pins, *place, now);
-    remove_keys(place->track, arguments, what);
+    if (arguments.has("to"))
+      move_key(place->track, arguments, what);
+    else
+      remove_keys(place->track, arguments, what);
     if (place->track.empty()) motions.erase(place);
     next.pins = pins;
     return;
@@ -274,6 +299,8 @@ void key_obstacle(Session& session, const Arguments& arguments, State& next) {
     const fem::Obstacle there = standing_obstacle(obstacle, now);
     remove_keys(obstacle.track, arguments, what);
     if (obstacle.track.empty()) obstacle.body = there;
+  } else if (arguments.has("to")) {
+    move_key(obstacle.track, arguments, what);
   } else {
     if (!obstacle.track.empty() && arguments.has("about"))
       throw Error(
@@ -379,6 +406,11 @@ std::vector<Command> key_commands() {
             value,
             {.name = "at",
              .help = "the time; else now. A key that is there already is replaced",
+             .unit = "s",
+             .low = 0,
+             .high = 1e9},
+            {.name = "to",
+             .help = "moves the key `at` that time to this one, with its value",
              .unit = "s",
              .low = 0,
              .high = 1e9},

@@ -55,6 +55,17 @@ TEST(ShownFields, WithASignGetALegendAsFarBelowZeroAsAbove) {
   EXPECT_NEAR(scene.legend->high, 0.1, 0.021);
 }
 
+TEST(ShownFields, WhatRoundingLeavesOfABodyAtRestIsNoPattern) {
+  TestSession session(k_box);
+  session.deform(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix());
+  for (const char* field : {"stress", "stress_1", "pressure"}) {
+    const Scene scene = make_scene(session.document(), request_of(field));
+    EXPECT_GT(shown_field(session.document(), field).values.cwiseAbs().maxCoeff(), 1e-12) << field;
+    EXPECT_EQ(scene.legend->high, 1) << field;  // [Pa]
+    for (const float value : scene.surface.values) EXPECT_LT(std::abs(value), 1e-3) << field;
+  }
+}
+
 TEST(Frames, TangentsFollowTheMapAndRotatedOnesOnlyTurn) {
   TestSession session(k_box);
   Scene rest;

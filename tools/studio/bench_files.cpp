@@ -70,6 +70,7 @@ void Bench::open(const std::filesystem::path& wanted) {
     load(folder, [&] { run_all(lines); });
     mark_saved(is_session ? file : std::filesystem::path{});
     filing_.used(file);
+    say(MessageKind::note, "opened " + file.filename().string());
   } catch (const Error& error) {
     say(error);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -82,6 +83,7 @@ void Bench::open_sample(const std::filesystem::path& file) {
     const auto lines = lines_of(io::read_file(file), file);
     load(file.parent_path(), [&] { run_all(lines); });
     mark_saved({});
+    say(MessageKind::note, "opened a copy of the sample " + file.stem().string());
   } catch (const Error& error) {
     say(error);
   }

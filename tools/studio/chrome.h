@@ -1,6 +1,6 @@
 #pragma once
-// What stands around the viewport: menus above, the shelf of tools, the legend, the timeline, the line of numbers
-// below, and the card of the first minute.
+// What stands around the viewport: menus above, the shelf of tools, the legend, the line of numbers below, and the
+// card of the first minute.
 
 #include <functional>
 
@@ -19,7 +19,6 @@ using Perform = std::function<void(Action)>;
 void draw_menu(Desk& desk, const Layout& layout, const Perform& perform);
 void draw_shelf(Desk& desk, const Layout& layout);
 void draw_legend(Desk& desk, const Layout& layout);
-void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform);
 void draw_status(Desk& desk, const Layout& layout);
 /// The first gestures, once; then a line of what the tool does; or what to do where there is no solid.
 void draw_hints(Desk& desk, const Layout& layout, const Perform& perform);

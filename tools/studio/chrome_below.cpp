@@ -1,4 +1,4 @@
-// Of chrome.h: the timeline and the line of numbers below it.
+// Of chrome.h: the line of numbers at the bottom.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sculpt/obstacles.h"
 #include "tools/studio/chrome.h"
+#include "tools/studio/quantity.h"
 
 namespace argil::studio {
 
@@ -23,76 +23,7 @@ std::string grouped(std::size_t number) {
   return result;
 }
 
-// Of all that is keyed: gravity, forces, pins and obstacles.
-std::vector<double> key_times(const sculpt::State& state) {
-  std::vector<double> times;
-  const auto add = [&](const sculpt::Track& track) {
-    times.insert(times.end(), track.times.begin(), track.times.end());
-  };
-  add(state.loads->gravity_track);
-  for (const sculpt::AppliedForce& force : state.loads->forces) add(force.track);
-  for (const sculpt::PinMotion& motion : state.pins->motions) add(motion.track);
-  if (state.obstacles)
-    for (const sculpt::NamedObstacle& obstacle : *state.obstacles) add(obstacle.track);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
 }  // namespace
-
-void draw_timeline(Desk& desk, const Layout& layout, const Perform& perform) {
-  Ui& ui = *desk.ui;
-  const Tokens& t = ui.tokens();
-  const Snapshot& now = *desk.now;
-  const Rect& place = layout.timeline;
-  ui.begin_panel("timeline", place, t.bar, 0);
-  ImDrawList& draw = ui.list();
-  const float size = ui.px(30), y = place.y + 0.5F * (place.height - size);
-  float x = ui.px(10);
-  if (ui.icon_button(
-          "Play", {x, y, size, size}, now.playing ? icons::pause : icons::play, false,
-          (now.playing ? "Stops time" : "Lets time run") + ("  ·  " + desk.bindings.word_of(Action::play))))
-    perform(Action::play);
-  x += size + ui.px(2);
-  if (ui.icon_button("One step", {x, y, size, size}, icons::step, false, desk.tooltip(Action::one_step)))
-    perform(Action::one_step);
-  x += size + ui.px(10);
-  const double time = now.state.motion ? now.state.motion->time : 0;
-  const std::string here = fmt::format("{:.3f} s", time);
-  ui.text(draw, ui.fonts().small, {x, place.y, ui.px(64), place.height}, t.quiet, here);
-  ui.note_control(ControlKind::reading, "Time", "Time of the simulation", "s", {x, y, ui.px(64), size});
-  double last = std::max(1.0, time);
-  for (const HistoryEntry& entry : *now.history) last = std::max(last, entry.stroke_end);
-  for (const double when : key_times(now.state)) last = std::max(last, when);
-  last = std::ceil(last * 1.25);
-  const std::string end = fmt::format("{:.0f} s", last);
-  const float end_width = ui.width_of(ui.fonts().small, end);
-  ui.text(draw, ui.fonts().small, {place.width - ui.px(18) - end_width, place.y, end_width, place.height}, t.quiet,
-          end);
-  const float left = x + ui.px(70), right = place.width - ui.px(34) - end_width,
-              middle = place.y + 0.5F * place.height;
-  const auto at = [&](double when) {
-    return left + (right - left) * static_cast<float>(std::clamp(when / last, 0.0, 1.0));
-  };
-  ui.box(draw, {left, middle - ui.px(2.5F), right - left, ui.px(5)}, t.outline, 2.5F);
-  if (time > 0)
-    ui.box(draw, {left, middle - ui.px(2.5F), std::max(ui.px(5), at(time) - left), ui.px(5)}, t.accent, 2.5F);
-  for (const HistoryEntry& entry : *now.history)
-    if (entry.stroke_end >= 0)
-      ui.box(draw, {at(entry.stroke_end) - ui.px(1.5F), middle - ui.px(8), ui.px(3), ui.px(16)},
-             entry.undone ? t.faint : t.mark, 1.5F);
-  for (const double when : key_times(now.state)) {
-    const ImVec2 mark{at(when), middle - ui.px(14)};
-    draw.AddQuadFilled({mark.x, mark.y - ui.px(4)}, {mark.x + ui.px(4), mark.y}, {mark.x, mark.y + ui.px(4)},
-                       {mark.x - ui.px(4), mark.y}, t.accent);
-  }
-  draw.AddCircleFilled({at(time), middle}, ui.px(6), t.accent, 24);
-  ui.note_control(ControlKind::reading, "Timeline",
-                  "How far time has gone; bars stand where strokes ended, diamonds at keys", "s",
-                  {left, y, right - left, size});
-  ui.end_panel();
-}
 
 void draw_status(Desk& desk, const Layout& layout) {
   Ui& ui = *desk.ui;
@@ -108,8 +39,10 @@ void draw_status(Desk& desk, const Layout& layout) {
     x += ui.width_of(font, line);
   };
   const auto begin = [&] { return x; };
+  std::vector<float> ends;  // of the readings
   const auto end = [&](float from, const char* name, const char* tooltip, const char* unit) {
     ui.note_control(ControlKind::reading, name, tooltip, unit, {from, place.y, x - from, place.height});
+    ends.push_back(x);
     x += ui.px(26);
   };
   float from = begin();
@@ -135,11 +68,14 @@ void draw_status(Desk& desk, const Layout& layout) {
   from = begin();
   const double force = now.stroke ? now.stroke->force.norm() : 0;
   word("force ", false);
-  word(fmt::format("{:.1f} N", force), true);
+  const Quantity words = shown(force, "N");
+  word(words.number + ' ' + words.unit, true);
   x += ui.px(8);
   const float bar = ui.px(70), height = ui.px(8), top = place.y + 0.5F * (place.height - height);
   ui.box(draw, {x, top, bar, height}, t.outline, 2);
-  const double share = std::clamp(force / std::max(1e-9, std::min(desk.brush.largest_force, 1e3)), 0.0, 1.0);
+  // A tool without a limit fills it where it has gone by its radius.
+  const double limit = std::min(desk.brush.largest_force, 2 * desk.brush.strength * desk.brush.radius);
+  const double share = std::clamp(force / std::max(1e-9, limit), 0.0, 1.0);
   if (share > 0.02)
     ui.box(draw, {x, top, bar * static_cast<float>(share), height}, now.stroke->at_limit ? t.warning : t.accent, 2);
   x += bar;
@@ -147,7 +83,6 @@ void draw_status(Desk& desk, const Layout& layout) {
 
   // The latest message, else what the physics is.
   const bool fresh = !now.messages.empty() && desk.time - desk.message_since < 6;
-  const float room = place.width - ui.px(18) - x;
   std::string line;
   Ink colour = t.quiet;
   if (fresh) {
@@ -161,17 +96,17 @@ void draw_status(Desk& desk, const Layout& layout) {
                        fem::method_kind(now.state.method).name);
   }
   const std::string whole = line;
-  while (line.size() > 3 && ui.width_of(ui.fonts().small, line) > room) {
-    line.resize(line.size() - 2);
-    while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
-    if (!line.empty() && static_cast<unsigned char>(line.back()) >= 0x80U) line.pop_back();
-    if (ui.width_of(ui.fonts().small, line + "…") <= room) {
-      line += "…";
-      break;
-    }
-  }
+  // What was just said goes before the numbers; what is always so does not.
+  const float least = fresh ? ui.px(170) : x, right = place.width - ui.px(18);
+  line = ui.fitted(ui.fonts().small, line, right - least);
   const float width = ui.width_of(ui.fonts().small, line);
-  const Rect said{place.width - ui.px(18) - width, place.y, width, place.height};
+  const Rect said{right - width, place.y, width, place.height};
+  if (said.x < x) {
+    float whole_until = 0;
+    for (const float reading : ends)
+      if (reading < said.x - ui.px(10)) whole_until = reading;
+    ui.box(draw, {whole_until, place.y, place.width - whole_until, place.height}, t.status, 0);
+  }
   ui.text(draw, ui.fonts().small, said, colour, line);
   if (!whole.empty())
     ui.note_control(ControlKind::reading, "Message",

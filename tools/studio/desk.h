@@ -70,6 +70,16 @@ struct CurveLaid {
   bool finished = false;
 };
 
+/// A mark of the timeline under the pointer, or held by it [s].
+struct KeyMark {
+  std::optional<double> pointed;  // as of the last frame
+  std::optional<double> held;     // the time that it had
+  double to = 0;                  // where it is dragged
+  bool dropped = false;           // by Esc, until the button goes up
+  std::optional<double> menu;     // whose menu is open
+  bool wants_key_menu = false;
+};
+
 /// What has the keyboard in front of everything else.
 enum class Dialogue { none, search, keys, open, save, samples, unsaved, devices };
 
@@ -86,6 +96,7 @@ struct Desk {
   std::optional<std::uint32_t> pointed;  // the element under the pointer in select mode
   PendingEdit pending;
   CurveLaid curve;
+  KeyMark key_mark;
   bool wants_context_menu = false;                                      // where the pointer is
   std::array<float, 2> context_menu_at{-1, -1};                         // where it stands open [pixels]
   Dialogue dialogue = Dialogue::none, shown_dialogue = Dialogue::none;  // asked for, and as of the last frame
@@ -116,6 +127,12 @@ struct Desk {
   [[nodiscard]] const ShelfTool& tool() const { return shelf_tools()[settings.tool]; }
   /// What the pointer lights up: what is chosen in select mode, or faces for the tool that draws them out.
   [[nodiscard]] std::optional<sculpt::ElementType> pointing() const;
+  /// What is selected in the document, possibly nothing.
+  [[nodiscard]] const sculpt::Selection& selection() const;
+  /// Goes to select mode of these elements, or back to sculpting.
+  void choose(std::optional<sculpt::ElementType> type);
+  /// The tool that has been taken is laid down again, and its ghost with it.
+  void drop_pending();
   void run(const std::string& line) const { workshop->run(line); }
   void take_tool(std::size_t index);
   /// Takes the brush of a solid that was begun or opened.

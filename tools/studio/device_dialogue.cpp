@@ -33,11 +33,10 @@ void draw_devices(Desk& desk, int width, int height) {
     const float left = place.x + ui.px(20), room = wide - ui.px(40) - ui.px(104);
     ui.text(draw, ui.fonts().small_strong, {left, y, ui.px(120), ui.px(22)}, is_used ? t.accent : t.text,
             choice.name);
-    draw.PushClipRect({left, y}, {left + room, y + row}, true);
-    ui.text(draw, ui.fonts().small, {left + ui.px(120), y, room, ui.px(22)}, t.text, choice.summary);
-    ui.text(draw, ui.fonts().small, {left + ui.px(120), y + ui.px(18), room, ui.px(22)},
-            choice.present ? t.quiet : t.faint, choice.state);
-    draw.PopClipRect();
+    const Rect told{left + ui.px(120), y, room - ui.px(120), ui.px(22)};
+    ui.text(draw, ui.fonts().small, told, t.text, ui.fitted(ui.fonts().small, choice.summary, told.width));
+    ui.text(draw, ui.fonts().small, {told.x, y + ui.px(18), told.width, told.height},
+            choice.present ? t.quiet : t.faint, ui.fitted(ui.fonts().small, choice.state, told.width));
     ui.note_control(ControlKind::reading, "About " + choice.name, choice.summary + ": " + choice.state, "",
                     {left, y, room, row});
     if (choice.present && !is_used && choice.opens &&

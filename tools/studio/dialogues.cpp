@@ -78,8 +78,9 @@ void draw_search(Desk& desk, const Layout& layout, const Perform& perform, int w
     const float y = place.bottom() - foot + ui.px(8);
     draw.AddRectFilled({place.x, y - ui.px(1)}, {place.right(), y}, t.outline);
     const Rect line{place.x + ui.px(16), y + ui.px(8), wide - ui.px(32), ui.px(20)};
-    draw.PushClipRect({line.x, y}, {line.right(), place.bottom()}, true);
-    ui.text(draw, ui.fonts().small, line, t.text, one.action != nullptr ? one.action->help : one.command->summary);
+    const auto fitted = [&](const std::string& words) { return ui.fitted(ui.fonts().small, words, line.width); };
+    ui.text(draw, ui.fonts().small, line, t.text,
+            fitted(one.action != nullptr ? one.action->help : one.command->summary));
     std::string below;
     Ink colour = t.quiet;
     if (one.command != nullptr) {
@@ -94,8 +95,8 @@ void draw_search(Desk& desk, const Layout& layout, const Perform& perform, int w
         colour = t.good;
       }
     }
-    ui.text(draw, ui.fonts().small, {line.x, line.bottom() + ui.px(4), line.width, ui.px(20)}, colour, below);
-    draw.PopClipRect();
+    ui.text(draw, ui.fonts().small, {line.x, line.bottom() + ui.px(4), line.width, ui.px(20)}, colour,
+            fitted(below));
   }
   ui.end_panel();
 }

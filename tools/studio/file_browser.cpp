@@ -77,6 +77,7 @@ FolderListing list_folder(const std::string& typed) {
   const fs::path path(typed);
   const bool whole = typed.empty() || fs::is_directory(path, failure);
   if (!typed.empty()) listing.folder = whole ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
+  listing.whole = fs::weakly_canonical(fs::absolute(listing.folder, failure), failure);
   const std::string start = whole ? std::string{} : path.filename().string();
   for (const auto& entry : fs::directory_iterator(listing.folder, failure)) {
     const std::string name = entry.path().filename().string();

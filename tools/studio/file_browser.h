@@ -15,6 +15,7 @@ struct FolderListing {
   std::string typed;  // that it answers
   std::filesystem::path folder;
   std::vector<std::string> names;
+  std::filesystem::path whole{};  // the folder as the disk has it, from its root
 };
 [[nodiscard]] FolderListing list_folder(const std::string& typed);
 

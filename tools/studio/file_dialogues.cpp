@@ -42,6 +42,27 @@ void finish(Desk& desk, fs::path file, bool saves) {
   desk.workshop->post([file, saves](Bench& bench) { saves ? bench.save(file) : bench.open(file); });
 }
 
+/// Whether a session that is saved as `typed` would take the place of another file, as far as the disk was asked.
+bool would_replace(const Desk& desk) {
+  if (!desk.now->listing || desk.now->listing->typed != desk.typed) return false;
+  std::string name = fs::path(desk.typed).filename().string();
+  if (!name.ends_with(".argil")) name += ".argil";
+  const auto& names = desk.now->listing->names;
+  const bool is_there = std::find(names.begin(), names.end(), name) != names.end();
+  return is_there && desk.now->listing->folder / name != fs::path(desk.now->file);
+}
+
+/// As many of its last folders as have room.
+std::string end_of_path(const Ui& ui, const fs::path& path, float width) {
+  std::string text = path.string();
+  while (ui.width_of(ui.fonts().small, text) > width) {
+    const std::size_t slash = text.find('/', text.starts_with("…") ? std::string("…/").size() : 1);
+    if (slash == text.npos) return ui.fitted(ui.fonts().small, text, width);
+    text = "…" + text.substr(slash);
+  }
+  return text;
+}
+
 void draw_title(Desk& desk, const Rect& place, const char* title, const std::string& note) {
   Ui& ui = *desk.ui;
   const Rect line{place.x + ui.px(20), place.y + ui.px(10), place.width - ui.px(40), ui.px(28)};
@@ -62,7 +83,8 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
   const float high = ui.px(44) + field + row * static_cast<float>(shown.size()) + ui.px(62);
   const Rect place{0.5F * (static_cast<float>(width) - wide), ui.px(90), wide, high};
   open_sheet(desk, "file", place, width, height);
-  draw_title(desk, place, saves ? "Save the session" : "Open a session or a mesh", "");
+  draw_title(desk, place, saves ? "Save the session" : "Open a session or a mesh",
+             desk.now->listing ? end_of_path(ui, desk.now->listing->whole, wide - ui.px(230)) : "");
   const Rect box{place.x + ui.px(16), place.y + ui.px(46), wide - ui.px(32), ui.px(36)};
   ui.box(ui.list(), box, ui.tokens().well);
   ui.frame(ui.list(), box, ui.tokens().accent);
@@ -82,9 +104,22 @@ void draw_file(Desk& desk, bool saves, int width, int height) {
       }
     }
   const float y = place.bottom() - ui.px(48);
+  const bool replaces = saves && would_replace(desk);
+  if (replaces) {
+    ui.text(ui.list(), ui.fonts().small_strong, {place.x + ui.px(20), y, wide, ui.px(32)}, ui.tokens().warning,
+            "There is another file of this name");
+    ui.note_control(ControlKind::reading, "Would replace", "Saving puts the session in its place", "",
+                    {place.x + ui.px(20), y, ui.px(280), ui.px(32)});
+  }
   const bool done =
       ui.text_button(saves ? "Save now" : "Open now", {place.right() - ui.px(116), y, ui.px(100), ui.px(32)},
-                     saves ? "Save" : "Open", true, saves ? "Writes the session" : "Opens the file");
+                     replaces ? "Replace"
+                     : saves  ? "Save"
+                              : "Open",
+                     true,
+                     replaces ? "Writes the session in the place of the file that is there"
+                     : saves  ? "Writes the session"
+                              : "Opens the file");
   if (ui.text_button("Leave", {place.right() - ui.px(224), y, ui.px(100), ui.px(32)}, "Cancel", false,
                      "Leaves all as it is"))
     desk.dialogue = Dialogue::none;

@@ -23,7 +23,7 @@ inline constexpr Icon hand{"\xef\x89\x96", "P"}, grab{"\xef\x89\x95", "G"}, expa
     caret{"\xef\x83\x97", "v"}, eye{"\xef\x81\xae", "o"}, cubes{"\xef\x86\xb3", "c"}, keyboard{"\xef\x84\x9c", "K"},
     warning{"\xef\x81\xb1", "!"}, camera{"\xef\x80\xb0", "c"}, file{"\xef\x80\x96", "f"},
     terminal{"\xef\x84\xa0", ">"}, bolt{"\xef\x83\xa7", "b"}, sliders{"\xef\x87\x9e", "s"},
-    layers{"\xef\x89\x8d", "l"};
+    layers{"\xef\x89\x8d", "l"}, key{"\xef\x82\x84", "K"};
 }  // namespace icons
 
 struct Fonts {

@@ -48,39 +48,49 @@ void draw_key_editor(Desk& desk, int width, int height) {
     desk.rebinds.reset();
     desk.key_note.clear();
   }
-  const std::size_t columns = static_cast<float>(width) >= ui.px(1180) ? 4 : 3;
+  const float column = ui.px(276), margin = ui.px(20);
+  const auto columns = static_cast<std::size_t>(
+      std::clamp((static_cast<float>(width) - 2 * margin - ui.px(24)) / column, 1.0F, 4.0F));
   const std::size_t gesture_rows = (gestures().size() + 1) / 2;
   const std::size_t rows = (k_action_count + columns - 1) / columns;
-  const float head = ui.px(48), foot = ui.px(52), margin = ui.px(20);
-  const float room = static_cast<float>(height) - ui.px(60) - head - foot - ui.px(14);
-  const float row = std::min(ui.px(24), room / static_cast<float>(gesture_rows + rows));
-  const float column = ui.px(276);
+  const float head = ui.px(48), foot = ui.px(52), row = ui.px(20);
   const float wide = column * static_cast<float>(columns) + 2 * margin;
   const float gestures_height = row * static_cast<float>(gesture_rows) + ui.px(14);
-  const float high = head + gestures_height + row * static_cast<float>(rows) + foot;
+  const float list = gestures_height + row * static_cast<float>(rows);
+  const float high = std::min(head + list + foot, static_cast<float>(height) - ui.px(40));
   const Rect place{0.5F * (static_cast<float>(width) - wide), 0.5F * (static_cast<float>(height) - high), wide,
                    high};
   open_sheet(desk, "keys", place, width, height);
-  ImDrawList& draw = ui.list();
   const Rect title{place.x + margin, place.y + ui.px(8), wide - 2 * margin, ui.px(34)};
-  ui.text(draw, ui.fonts().strong, title, t.text, "Keys and gestures");
+  ui.text(ui.list(), ui.fonts().strong, title, t.text, "Keys and gestures");
   const std::string note = desk.rebinds ? fmt::format("Press a key for {}; Del takes it away, Esc leaves it",
                                                       label_of(info(*desk.rebinds)))
                            : desk.key_note.empty() ? "Click a line, then press its new key"
                                                    : desk.key_note;
-  ui.text(draw, ui.fonts().small, title, desk.rebinds ? t.accent : t.faint, note, Side::right);
+  ui.text(ui.list(), ui.fonts().small, title, desk.rebinds ? t.accent : t.faint, note, Side::right);
+  // What has no room is scrolled to.
+  const Rect body{place.x, place.y + head, wide, high - head - foot};
+  ImGui::SetCursorScreenPos({body.x, body.y});
+  ImGui::BeginChild("list", {body.width, body.height}, false, ImGuiWindowFlags_NoBackground);
+  ImDrawList& draw = ui.list();
+  const float top = body.y - ImGui::GetScrollY();
+  const auto shows = [&](const Rect& line) { return line.bottom() > body.y && line.y < body.bottom(); };
   for (std::size_t i = 0; i < gestures().size(); ++i) {
     const float x = place.x + margin + 0.5F * (wide - 2 * margin) * static_cast<float>(i / gesture_rows),
-                y = place.y + head + row * static_cast<float>(i % gesture_rows);
-    ui.text(draw, ui.fonts().small_strong, {x, y, ui.px(150), row}, t.accent, gestures()[i].gesture);
-    draw.PushClipRect({x, y}, {x + 0.5F * (wide - 2 * margin) - ui.px(8), y + row}, true);
-    ui.text(draw, ui.fonts().small, {x + ui.px(150), y, wide, row}, t.text, gestures()[i].help);
-    draw.PopClipRect();
+                y = top + row * static_cast<float>(i % gesture_rows), room = 0.5F * (wide - 2 * margin) - ui.px(8);
+    const float named = std::min(ui.px(170), 0.5F * room);
+    ui.text(draw, ui.fonts().small_strong, {x, y, named, row}, t.accent,
+            ui.fitted(ui.fonts().small_strong, gestures()[i].gesture, named - ui.px(8)));
+    const Rect said{x + named, y, room - named, row};
+    ui.text(draw, ui.fonts().small, said, t.text, ui.fitted(ui.fonts().small, gestures()[i].help, said.width));
+    if (shows(said))
+      ui.note_control(ControlKind::reading, gestures()[i].gesture,
+                      std::string(gestures()[i].gesture) + ": " + gestures()[i].help, "", {x, y, room, row});
   }
   for (std::size_t i = 0; i < k_action_count; ++i) {
     const ActionInfo& action = action_table()[i];
     const Rect line{place.x + margin + column * static_cast<float>(i / rows),
-                    place.y + head + gestures_height + row * static_cast<float>(i % rows), column - ui.px(8), row};
+                    top + gestures_height + row * static_cast<float>(i % rows), column - ui.px(8), row};
     ImGui::SetCursorScreenPos({line.x, line.y});
     ImGui::PushID(static_cast<int>(i));
     const bool pressed = ImGui::InvisibleButton("##key", {line.width, line.height});
@@ -94,12 +104,16 @@ void draw_key_editor(Desk& desk, int width, int height) {
     ui.text(draw, ui.fonts().small_strong, {line.x, line.y, ui.px(112), row}, keys.empty() ? t.faint : t.accent,
             keys.empty() ? "–" : keys);
     ui.text(draw, ui.fonts().small, {line.x + ui.px(112), line.y, line.width, row}, t.text, label_of(action));
-    ui.note_control(ControlKind::button, fmt::format("Key of {}", action.word), action.help, "", line);
+    if (shows(line))
+      ui.note_control(ControlKind::button, fmt::format("Key of {}", action.word), action.help, "", line);
     if (pressed) {
       desk.rebinds = action.action;
       desk.key_note.clear();
     }
   }
+  ImGui::SetCursorScreenPos({body.x, top + list});
+  ImGui::Dummy({1, 1});
+  ImGui::EndChild();
   float x = place.x + margin;
   for (const KeyPreset& preset : key_presets()) {
     const float button = ui.px(150);

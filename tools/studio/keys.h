@@ -113,9 +113,10 @@ enum class Action {
   mask_invert,
   mask_selected,
   mask_unselected,
-  peel
+  peel,
+  set_key
 };
-inline constexpr std::size_t k_action_count = static_cast<std::size_t>(Action::peel) + 1;
+inline constexpr std::size_t k_action_count = static_cast<std::size_t>(Action::set_key) + 1;
 
 struct ActionInfo {
   Action action;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "sculpt/command.h"
 #include "tools/studio/chrome.h"
@@ -13,109 +14,132 @@ namespace argil::studio {
 
 namespace {
 
-void draw_actions(Desk& desk, const Menu& menu, const Perform& perform) {
-  const Settings& s = desk.settings;
-  for (const ActionInfo& action : action_table()) {
-    if (std::strcmp(action.menu, menu.name) != 0) continue;
-    const std::size_t number = static_cast<std::size_t>(action.action) - static_cast<std::size_t>(Action::tool_1);
-    const bool is_tool = action.action >= Action::tool_1 && action.action <= Action::tool_9;
-    if (is_tool && number >= shelf_tools().size()) continue;
-    using enum Action;
-    const bool marked = (action.action == symmetry && desk.brush.symmetry != 0) ||
-                        (action.action == keep_shape && s.keep_shape) ||
-                        (action.action == wireframe && s.wireframe) || (action.action == cage && s.cage) ||
-                        (action.action == cut_away && s.cut) || (action.action == theme && s.light) ||
-                        (action.action == panels && s.panels) || (action.action == peel && s.peel > 0) ||
-                        (action.action == select_next_type && s.choosing) || (is_tool && number == s.tool);
-    const bool enabled = action.action == undo   ? desk.now->undo_depth > 0
-                         : action.action == redo ? desk.now->redo_depth > 0
-                                                 : true;
-    const std::string label = is_tool ? shelf_tools()[number].label : action.label;
-    if (desk.ui->list_row(label, desk.bindings.word_of(action.action), marked, false,
-                          is_tool ? shelf_tools()[number].help : action.help, enabled)) {
-      perform(action.action);
-      ImGui::CloseCurrentPopup();
+/// A line of a menu: an action, a command, or the head of a group of commands.
+struct MenuLine {
+  const ActionInfo* action = nullptr;
+  const sculpt::Command* command = nullptr;
+  const char* head = nullptr;
+  std::size_t part = 0;  // the actions, then each group
+};
+
+std::optional<std::size_t> tool_of(Action action) {
+  if (action < Action::tool_1 || action > Action::tool_9) return std::nullopt;
+  return static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::tool_1);
+}
+
+std::vector<MenuLine> lines_of(const Menu& menu) {
+  std::vector<MenuLine> lines;
+  for (const ActionInfo& action : action_table())
+    if (std::strcmp(action.menu, menu.name) == 0 && tool_of(action.action).value_or(0) < shelf_tools().size())
+      lines.push_back({.action = &action});
+  std::size_t part = 0;
+  for (const char* group : menu.groups) {
+    lines.push_back({.head = group, .part = ++part});
+    for (const sculpt::Command& command : sculpt::command_table())
+      if (command.group == group) lines.push_back({.command = &command, .part = part});
+  }
+  return lines;
+}
+
+/// The column of each line. Parts stay whole in columns of about the same height, but for one that is higher than
+/// the window.
+std::vector<std::size_t> columns_of(const std::vector<MenuLine>& lines, std::size_t usual, std::size_t most) {
+  std::vector<std::size_t> columns;
+  std::size_t column = 0, filled = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool begins = i == 0 || lines[i].part != lines[i - 1].part;
+    std::size_t size = 0;
+    while (begins && i + size < lines.size() && lines[i + size].part == lines[i].part) ++size;
+    if (filled > 0 && ((begins && filled + size > std::min(usual, most)) || filled == most)) {
+      ++column;
+      filled = 0;
     }
+    columns.push_back(column);
+    ++filled;
+  }
+  return columns;
+}
+
+bool is_marked(const Desk& desk, Action action) {
+  const Settings& s = desk.settings;
+  switch (action) {
+    case Action::symmetry:
+      return desk.brush.symmetry != 0;
+    case Action::keep_shape:
+      return s.keep_shape;
+    case Action::wireframe:
+      return s.wireframe;
+    case Action::cage:
+      return s.cage;
+    case Action::cut_away:
+      return s.cut;
+    case Action::theme:
+      return s.light;
+    case Action::panels:
+      return s.panels;
+    case Action::peel:
+      return s.peel > 0;
+    case Action::select_next_type:
+      return s.choosing.has_value();
+    default:
+      return tool_of(action) == s.tool;
   }
 }
 
-void draw_commands(Desk& desk, const char* group) {
-  for (const sculpt::Command& command : sculpt::command_table()) {
-    if (command.group != group) continue;
-    const bool alone = runs_alone(command) && command.parameters.empty();
-    if (desk.ui->list_row(command.name, alone ? "" : "…", false, false, command.summary)) {
-      if (alone)
-        desk.run(command.name);
-      else
-        desk.open_dialogue(Dialogue::search, command.name + ' ');
-      ImGui::CloseCurrentPopup();
-    }
+void draw_action(Desk& desk, const ActionInfo& action, const Perform& perform) {
+  const bool enabled = action.action == Action::undo   ? desk.now->undo_depth > 0
+                       : action.action == Action::redo ? desk.now->redo_depth > 0
+                                                       : true;
+  const auto tool = tool_of(action.action);
+  if (desk.ui->list_row(tool ? shelf_tools()[*tool].label : action.label, desk.bindings.word_of(action.action),
+                        is_marked(desk, action.action), false, tool ? shelf_tools()[*tool].help : action.help,
+                        enabled)) {
+    perform(action.action);
+    ImGui::CloseCurrentPopup();
   }
+}
+
+void draw_command(Desk& desk, const sculpt::Command& command) {
+  const bool alone = runs_alone(command) && command.parameters.empty();
+  if (!desk.ui->list_row(command.name, alone ? "" : "…", false, false, command.summary)) return;
+  if (alone)
+    desk.run(command.name);
+  else
+    desk.open_dialogue(Dialogue::search, command.name + ' ');
+  ImGui::CloseCurrentPopup();
 }
 
 void draw_menu_popup(Desk& desk, const Menu& menu, float x, float y, const Perform& perform) {
+  if (!ImGui::IsPopupOpen(menu.name)) return;
   Ui& ui = *desk.ui;
-  const float row = ui.px(28), head = ui.px(28), column = ui.px(226), pad = ui.px(6);
-  // Actions and groups are spread over columns of about the same height.
-  std::size_t actions = 0;
-  for (const ActionInfo& action : action_table()) {
-    const std::size_t number = static_cast<std::size_t>(action.action) - static_cast<std::size_t>(Action::tool_1);
-    const bool beyond =
-        action.action >= Action::tool_1 && action.action <= Action::tool_9 && number >= shelf_tools().size();
-    if (std::strcmp(action.menu, menu.name) == 0 && !beyond) ++actions;
-  }
-  struct Part {
-    const char* group;  // null: the actions
-    float height;
-    std::size_t column = 0;
-  };
-  std::vector<Part> parts;
-  if (actions > 0) parts.push_back({nullptr, row * static_cast<float>(actions)});
-  for (const char* group : menu.groups) {
-    const auto count = std::count_if(sculpt::command_table().begin(), sculpt::command_table().end(),
-                                     [&](const sculpt::Command& command) { return command.group == group; });
-    parts.push_back({group, head + row * static_cast<float>(count)});
-  }
-  std::size_t columns = 0;
-  float filled = 0, tallest = 0;
-  const float most = ui.px(430);
-  for (Part& part : parts) {
-    if (filled > 0 && filled + part.height > most) {
-      ++columns;
-      filled = 0;
-    }
-    part.column = columns;
-    filled += part.height;
-    tallest = std::max(tallest, filled);
-  }
-  const float width = column * static_cast<float>(columns + 1) + 2 * pad, height = tallest + 2 * pad;
-  ImGui::SetNextWindowPos({x, y});
-  ImGui::SetNextWindowSize({width, height});
-  if (!ImGui::BeginPopup(menu.name, ImGuiWindowFlags_NoMove)) return;
-  const Rect place{x, y, width, height};
-  ImDrawList& draw = ui.list();
-  draw.PushClipRectFullScreen();
-  ui.shadow(draw, place, k_corner);
-  draw.PopClipRect();
-  ui.box(draw, place, ui.tokens().raised);
-  ui.frame(draw, place, ui.tokens().outline);
-  float at = y + pad;
-  std::size_t now = 0;
-  for (const Part& part : parts) {
-    if (part.column != now) at = y + pad;
-    now = part.column;
-    const float left = x + pad + column * static_cast<float>(part.column);
+  const float row = ui.px(28), pad = ui.px(6);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const auto lines = lines_of(menu);
+  const auto most = static_cast<std::size_t>(std::max(1.0F, (window.y - y - 2 * pad - ui.px(4)) / row));
+  const auto columns = columns_of(lines, 15, most);
+  std::size_t tallest = 0;
+  for (std::size_t column = 0; column <= columns.back(); ++column)
+    tallest = std::max(tallest, static_cast<std::size_t>(std::count(columns.begin(), columns.end(), column)));
+  const auto count = static_cast<float>(columns.back() + 1);
+  const float column = std::min(ui.px(226), (window.x - 2 * pad - ui.px(8)) / count);
+  const float width = column * count + 2 * pad, height = row * static_cast<float>(tallest) + 2 * pad;
+  x = std::clamp(x, ui.px(4), std::max(ui.px(4), window.x - width - ui.px(4)));
+  if (!ui.begin_popup(menu.name, {x, y, width, height})) return;
+  std::size_t filled = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (i > 0 && columns[i] != columns[i - 1]) filled = 0;
+    const float left = x + pad + column * static_cast<float>(columns[i]),
+                at = y + pad + row * static_cast<float>(filled++);
     ui.set_cursor(left, at, column);
-    if (part.group != nullptr) {
-      ui.text(draw, ui.fonts().small_strong, {left + ui.px(12), at, column, head}, ui.tokens().faint, part.group);
-      ui.set_cursor(left, at + head, column);
-      draw_commands(desk, part.group);
-    } else {
-      draw_actions(desk, menu, perform);
-    }
-    at += part.height;
+    if (lines[i].head != nullptr)
+      ui.text(ui.list(), ui.fonts().small_strong, {left + ui.px(12), at, column, row}, ui.tokens().faint,
+              lines[i].head);
+    else if (lines[i].command != nullptr)
+      draw_command(desk, *lines[i].command);
+    else
+      draw_action(desk, *lines[i].action, perform);
   }
-  ImGui::EndPopup();
+  ui.end_popup();
 }
 
 }  // namespace
@@ -152,20 +176,24 @@ void draw_menu(Desk& desk, const Layout& layout, const Perform& perform) {
   const std::string name =
       desk.now->file.empty() ? "untitled" : std::filesystem::path(desk.now->file).filename().string();
   float right = layout.menu.width - ui.px(16);
-  const float name_width = ui.width_of(ui.fonts().small, name);
+  const std::string title = ui.fitted(ui.fonts().small, name, std::max(ui.px(60), right - x - ui.px(180)));
+  const float name_width = ui.width_of(ui.fonts().small, title);
   const Rect named{right - name_width, 0, name_width, layout.menu.height};
-  ui.text(draw, ui.fonts().small, named, t.quiet, name);
+  ui.text(draw, ui.fonts().small, named, t.quiet, title);
   const float dot = named.x - ui.px(14);
   draw.AddCircleFilled({dot, 0.5F * layout.menu.height}, ui.px(4), desk.now->saved ? t.good : t.accent, 20);
   ui.note_control(ControlKind::reading, "Session",
-                  desk.now->saved ? "All is saved" : "Not saved yet; the journal holds it", "",
-                  {dot - ui.px(8), 0, right - dot + ui.px(8), layout.menu.height});
-  const Rect box{dot - ui.px(24) - ui.px(250), ui.px(5), ui.px(250), layout.menu.height - ui.px(10)};
+                  (desk.now->file.empty() ? "" : desk.now->file + ". ") +
+                      (desk.now->saved ? "All is saved" : "Not saved yet; the journal holds it"),
+                  "", {dot - ui.px(8), 0, right - dot + ui.px(8), layout.menu.height});
+  const float search_width = std::clamp(dot - ui.px(36) - x, ui.px(60), ui.px(250));
+  const Rect box{dot - ui.px(24) - search_width, ui.px(5), search_width, layout.menu.height - ui.px(10)};
   ImGui::SetCursorScreenPos({box.x, box.y});
   const bool searched = ImGui::InvisibleButton("##search", {box.width, box.height});
   ui.box(draw, box, ImGui::IsItemHovered() ? t.well_hovered : t.well);
   ui.text(draw, ui.fonts().small, {box.x + ui.px(12), box.y, box.width, box.height}, t.faint,
-          "Search commands  ·  " + desk.bindings.word_of(Action::search));
+          ui.fitted(ui.fonts().small, "Search commands  ·  " + desk.bindings.word_of(Action::search),
+                    box.width - ui.px(20)));
   ui.note_control(ControlKind::button, "Search", desk.tooltip(Action::search), "", box);
   if (searched) perform(Action::search);
   ui.end_panel();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "sculpt/shown_fields.h"
@@ -18,6 +19,25 @@ std::string spaced(std::string word) {
   std::replace(word.begin(), word.end(), '_', ' ');
   if (!word.empty()) word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
   return word;
+}
+
+constexpr std::size_t k_readable = 160;  // characters of a line that may show at all
+
+/// Numbers with as many digits as a hand meant.
+std::string readable(const std::string& words) {
+  std::string result;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    double number = 0;
+    const auto read = std::from_chars(words.data() + at, words.data() + end, number);
+    if (end > at + 6 && read.ec == std::errc{} && read.ptr == words.data() + end)
+      result += fmt::format("{:.3g}", number);
+    else
+      result.append(words, at, end - at);
+    if (end < words.size()) result += ' ';
+    at = end + 1;
+  }
+  return result;
 }
 
 }  // namespace
@@ -109,9 +129,11 @@ void draw_history_panel(Desk& desk, const Perform& perform, float x, float width
   const Tokens& t = ui.tokens();
   ui.section("What was done");
   const float half = 0.5F * (width - ui.px(8)), y = ui.cursor_y();
-  if (ui.text_button("Undo", {x, y, half, ui.px(28)}, "Undo", false, desk.tooltip(Action::undo)))
+  if (ui.text_button("Undo", {x, y, half, ui.px(28)}, "Undo", false, desk.tooltip(Action::undo),
+                     desk.now->undo_depth > 0))
     perform(Action::undo);
-  if (ui.text_button("Redo", {x + half + ui.px(8), y, half, ui.px(28)}, "Redo", false, desk.tooltip(Action::redo)))
+  if (ui.text_button("Redo", {x + half + ui.px(8), y, half, ui.px(28)}, "Redo", false, desk.tooltip(Action::redo),
+                     desk.now->redo_depth > 0))
     perform(Action::redo);
   ui.skip(38);
   const auto& entries = *desk.now->history;
@@ -120,25 +142,27 @@ void draw_history_panel(Desk& desk, const Perform& perform, float x, float width
     return;
   }
   ImDrawList& draw = ui.list();
-  for (std::size_t k = 0; k < entries.size() && k < 400; ++k) {
+  const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowHeight();
+  for (std::size_t k = 0; k < entries.size(); ++k) {
     const HistoryEntry& entry = entries[entries.size() - 1 - k];
     const Rect row{x, ui.cursor_y(), width, ui.px(26)};
     ui.skip(26);
+    if (row.bottom() < top || row.y > bottom) continue;  // scrolled away
     const bool present = !entry.undone && (k == 0 || entries[entries.size() - k].undone);
     if (present)
       draw.AddRectFilled({row.x - ui.px(6), row.y + ui.px(6)}, {row.x - ui.px(3), row.bottom() - ui.px(6)},
                          t.accent, ui.px(1));
     const std::size_t blank = std::min(entry.line.find(' '), entry.line.size());
-    const std::string name = entry.line.substr(0, blank), rest = entry.line.substr(blank);
+    const std::string name = entry.line.substr(0, blank), rest = readable(entry.line.substr(blank, k_readable));
     const std::string times = entry.times > 1 ? fmt::format("×{}", entry.times) : "";
-    draw.PushClipRect({row.x, row.y}, {row.right() - (times.empty() ? 0 : ui.px(36)), row.bottom()}, true);
     ui.text(draw, ui.fonts().small_strong, row, entry.undone ? t.faint : t.text, name);
-    const float shift = ui.width_of(ui.fonts().small_strong, name);
-    ui.text(draw, ui.fonts().small, {row.x + shift, row.y, width, row.height},
-            entry.undone ? faded(t.faint, 0.7F) : t.quiet, rest);
-    draw.PopClipRect();
+    const float shift = ui.width_of(ui.fonts().small_strong, name),
+                room = width - shift - (times.empty() ? 0 : ui.px(36));
+    ui.text(draw, ui.fonts().small, {row.x + shift, row.y, room, row.height},
+            entry.undone ? faded(t.faint, 0.7F) : t.quiet, ui.fitted(ui.fonts().small, rest, room));
     ui.text(draw, ui.fonts().small, row, t.faint, times, Side::right);
-    ui.note_control(ControlKind::reading, fmt::format("History {}", k), entry.line, "", row);
+    ui.note_control(ControlKind::reading, fmt::format("History {}", k),
+                    ui.fitted(ui.fonts().small, entry.line, ui.px(1500)), "", row);
   }
 }
 

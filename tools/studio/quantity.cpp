@@ -32,9 +32,11 @@ constexpr std::array k_units{Prefixed{"m", "µm", 1e-6, 0},
                              Prefixed{"N", "N", 1, 0.01},
                              Prefixed{"N", "kN", 1e3, 1e4},
                              Prefixed{"N", "MN", 1e6, 1e7},
+                             Prefixed{"N", "GN", 1e9, 1e10},
                              Prefixed{"N/m", "N/m", 1, 0},
                              Prefixed{"N/m", "kN/m", 1e3, 1e4},
                              Prefixed{"N/m", "MN/m", 1e6, 1e7},
+                             Prefixed{"N/m", "GN/m", 1e9, 1e10},
                              Prefixed{"N/m", "N/mm", 1e3, -1},
                              Prefixed{"Pa", "Pa", 1, 0},
                              Prefixed{"Pa", "kPa", 1e3, 1e3},
@@ -92,14 +94,14 @@ class Parser {
   double whole() {
     const double value = sum();
     skip();
-    if (!left_.empty()) fail("the end");
+    if (!left_.empty()) fail(unit_.empty() ? "nothing more" : "a unit as " + unit_);
     if (!std::isfinite(value))
       throw Error(ErrorCode::bad_input, "expected a finite number; look for a division by 0");
     return has_unit_ ? value : value * factor_of(default_unit_);
   }
 
  private:
-  [[noreturn]] void fail(const char* expected) const {
+  [[noreturn]] void fail(const std::string& expected) const {
     throw Error(
         ErrorCode::bad_input,
         fmt::format("expected {} at '{}' of '{}'; write a number{}, as in {}", expected, left_, all_,

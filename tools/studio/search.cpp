@@ -110,4 +110,12 @@ const std::vector<Menu>& menus() {
   return all;
 }
 
+std::vector<std::string> choices_of(std::string_view command, std::string_view parameter) {
+  for (const sculpt::Command& c : sculpt::command_table())
+    if (c.name == command)
+      for (const sculpt::Parameter& p : c.parameters)
+        if (p.name == parameter) return p.choices;
+  return {};
+}
+
 }  // namespace argil::studio

@@ -28,6 +28,9 @@ struct Found {
 /// A command that wants no more than its name.
 [[nodiscard]] bool runs_alone(const sculpt::Command& command);
 
+/// The words that a parameter of a command may be; empty where it takes others.
+[[nodiscard]] std::vector<std::string> choices_of(std::string_view command, std::string_view parameter);
+
 /// The menus of the window from left to right, and the groups of commands that each has below its actions.
 struct Menu {
   const char* name;

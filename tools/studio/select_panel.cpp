@@ -48,8 +48,7 @@ void draw_sets(Desk& desk) {
     if (set.type == ElementType::nodes) continue;
     if (ui.list_row(name, fmt::format("{} {}", set.ids.size(), sculpt::word(set.type)), false, false,
                     "Selects what was kept under this name")) {
-      desk.settings.choosing = set.type;
-      desk.show();
+      desk.choose(set.type);
       desk.run(fmt::format("select {} set {}", sculpt::word(set.type), io::quote(name)));
     }
   }
@@ -70,8 +69,7 @@ void draw_select_panel(Desk& desk, float x, float width, const std::function<voi
       std::find(labels.begin(), labels.end(), sculpt::word(*desk.settings.choosing)) - labels.begin());
   type = std::min(type, labels.size() - 1);
   if (ui.choice_row("Elements", labels, type, desk.tooltip(Action::select_next_type))) {
-    desk.settings.choosing = type_of(labels[type]);
-    desk.show();
+    desk.choose(type_of(labels[type]));
   }
   const sculpt::Selection& selection = *now.state.selection;
   const std::string many = sculpt::word(selection.ids.empty() ? *desk.settings.choosing : selection.type);
@@ -151,8 +149,7 @@ void draw_pending(Desk& desk, const Rect& free, const SelectMode& mode) {
     mode.commit(desk);
   if (ui.text_button("Drop it", {place.x + margin + half + ui.px(8), y, half, ui.px(30)}, "Drop it", false,
                      desk.tooltip(Action::cancel))) {
-    desk.pending = {};
-    desk.workshop->preview({});
+    desk.drop_pending();
   }
   ui.set_cursor(place.x, place.y, width);
   ui.end_panel();
@@ -184,23 +181,14 @@ void draw_context_menu(Desk& desk, const std::function<void(Action)>& perform) {
   const float y = std::clamp(desk.context_menu_at[1], 0.0F, std::max(0.0F, io.DisplaySize.y - height - pad));
   ui.begin_panel("context", {x, y, 1, 1}, 0, 0);
   if (opens) ImGui::OpenPopup(k_name);
-  ImGui::SetNextWindowPos({x, y});
-  ImGui::SetNextWindowSize({width, height});
-  if (ImGui::BeginPopup(k_name, ImGuiWindowFlags_NoMove)) {
-    const Rect place{x, y, width, height};
-    ImDrawList& draw = ui.list();
-    draw.PushClipRectFullScreen();
-    ui.shadow(draw, place, k_corner);
-    draw.PopClipRect();
-    ui.box(draw, place, ui.tokens().raised);
-    ui.frame(draw, place, ui.tokens().outline);
+  if (ui.begin_popup(k_name, {x, y, width, height})) {
     ui.set_cursor(x, y + pad, width);
     for (const Action action : rows)
       if (ui.list_row(info(action).label, desk.bindings.word_of(action), false, false, info(action).help)) {
         ImGui::CloseCurrentPopup();
         perform(action);
       }
-    ImGui::EndPopup();
+    ui.end_popup();
   } else {
     desk.context_menu_at = {-1, -1};
   }

@@ -13,6 +13,7 @@
 #include "tools/studio/panels.h"
 #include "tools/studio/plots.h"
 #include "tools/studio/settings_file.h"
+#include "tools/studio/timeline.h"
 #include "tools/studio/ui_renderer.h"
 #include "tools/studio/work_notes.h"
 
@@ -75,6 +76,7 @@ Studio::~Studio() {
 }
 
 void Studio::perform(Action action) {
+  if (desk_.dialogue == Dialogue::none && perform_on_timeline(desk_, action)) return;
   if (action == Action::cancel) {
     if (const auto work = workshop_->work(); work && work->can_end)
       workshop_->cancel_work();

@@ -4,6 +4,7 @@
 // every number its unit; what is drawn in a frame is listed, so that a test can hold all controls to that and a
 // script can press them by name.
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -56,6 +57,7 @@ class Ui {
   void begin_frame() {
     controls_.clear();
     front_ = 0;
+    popup_ = {0, 0};
   }
   /// What is drawn from here on lies before all else: only it explains itself.
   void come_to_front() { front_ = controls_.size(); }
@@ -68,6 +70,9 @@ class Ui {
   // Panels. Between begin and end, rows are laid one below the other.
   void begin_panel(const char* name, const Rect& place, Ink fill, float corner, bool scrolls = false);
   void end_panel();
+  /// What ImGui::OpenPopup of this name opened, on a raised sheet; end_popup only if it is open.
+  bool begin_popup(const char* name, const Rect& place);
+  void end_popup();
   void set_cursor(float x, float y, float width);
   float cursor_y() const { return y_; }
   void skip(float height) { y_ += px(height); }
@@ -77,13 +82,16 @@ class Ui {
   bool icon_button(const char* name, const Rect& place, const Icon& icon, bool active, const std::string& tooltip,
                    bool enabled = true);
   bool text_button(const char* name, const Rect& place, const std::string& label, bool primary,
-                   const std::string& tooltip);
+                   const std::string& tooltip, bool enabled = true);
   bool tab(const char* name, const Rect& place, bool active, const std::string& tooltip);
   /// True when a new value is set; while the pointer drags, `preview` takes each value.
   bool number_row(const char* name, double& value, const NumberStyle& style,
                   const std::function<void(double)>& preview = {});
   bool vector_row(const char* name, double (&values)[3], const NumberStyle& style);
   bool choice_row(const char* name, std::span<const std::string> options, std::size_t& chosen,
+                  const std::string& tooltip);
+  /// By the word that is chosen, of which `options` need not know.
+  bool choice_row(const char* name, std::span<const std::string> options, std::string& chosen,
                   const std::string& tooltip);
   bool toggle_row(const char* name, bool& on, const std::string& tooltip);
   void reading_row(const char* name, const std::string& number, const std::string& unit,
@@ -102,6 +110,8 @@ class Ui {
             Side side = Side::left) const;
   void icon(ImDrawList& list, const Rect& place, Ink colour, const Icon& icon, bool small = false) const;
   float width_of(ImFont* font, std::string_view text) const;
+  /// The line, or as much of it as has room before an ellipsis.
+  [[nodiscard]] std::string fitted(ImFont* font, std::string_view text, float width) const;
   void box(ImDrawList& list, const Rect& place, Ink colour, float corner = k_corner) const;
   void frame(ImDrawList& list, const Rect& place, Ink colour, float corner = k_corner) const;
   void shadow(ImDrawList& list, const Rect& place, float corner) const;
@@ -116,6 +126,8 @@ class Ui {
   Row next_row();
   bool number_box(const char* name, const Rect& place, double& value, const NumberStyle& style,
                   const std::function<void(double)>& preview);
+  /// A sheet with these words at a control, over everything.
+  void draw_tip(const Rect& of, const std::string& words, Ink colour) const;
   bool press(const char* name, const Rect& place, bool& hovered, bool& held);
 
   const Tokens* tokens_;
@@ -123,6 +135,7 @@ class Ui {
   float scale_;
   std::vector<Control> controls_;
   std::size_t front_ = 0;
+  std::array<std::size_t, 2> popup_{0, 0};  // what the open menu has: while there is one, only that explains itself
   float x_ = 0, y_ = 0, width_ = 0;
   // The number that is typed or dragged.
   unsigned editing_ = 0, dragging_ = 0;

@@ -73,7 +73,7 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
         if (typed < style.low || typed > style.high) {
           const Quantity from = shown(style.low, style.unit), to = shown(style.high, style.unit);
           throw Error(ErrorCode::bad_input, "expected " + from.number + ' ' + from.unit + " to " + to.number + ' ' +
-                                                to.unit + "; choose a value within");
+                                                to.unit + ", found " + std::string(edited_));
         }
         changed = typed != value;
         value = typed;
@@ -81,14 +81,19 @@ bool Ui::number_box(const char* name, const Rect& place, double& value, const Nu
       } catch (const Error& error) {
         edit_failed_ = true;
         edit_error_ = error.what();
-        if (left) editing_ = 0;
+        // It stays, with what is wrong, until it is mended or left.
+        if (entered)
+          editing_waits_ = k_focus_frames;
+        else
+          editing_ = 0;
       }
     } else if (left) {
       editing_ = 0;
     }
     ImGui::PopID();
-    note_control(ControlKind::number, name, editing_ == id && edit_failed_ ? edit_error_ : style.tooltip,
-                 style.unit, place);
+    const bool fails = editing_ == id && edit_failed_;
+    if (fails) draw_tip(place, edit_error_, tokens_->warning);
+    note_control(ControlKind::number, name, fails ? "" : style.tooltip, style.unit, place);
     return changed;
   }
 
@@ -194,16 +199,8 @@ bool Ui::choice_row(const char* name, std::span<const std::string> options, std:
   if (top + height > ImGui::GetIO().DisplaySize.y) top = std::max(px(4), row.value.y - height - px(2));
   float widest = row.value.width;
   for (const std::string& option : options) widest = std::max(widest, width_of(fonts_.text, option) + px(48));
-  ImGui::SetNextWindowPos({row.value.right() - widest, top});
-  ImGui::SetNextWindowSize({widest, height});
-  if (ImGui::BeginPopup("options", ImGuiWindowFlags_NoMove)) {
-    const Rect place{row.value.right() - widest, top, widest, height};
-    ImDrawList& above = list();
-    above.PushClipRectFullScreen();
-    shadow(above, place, k_corner);
-    box(above, place, tokens_->raised);
-    frame(above, place, tokens_->outline);
-    above.PopClipRect();
+  const Rect place{row.value.right() - widest, top, widest, height};
+  if (begin_popup("options", place)) {
     const float x = x_, y = y_, width = width_;
     set_cursor(place.x + px(4), place.y + px(6) - ImGui::GetScrollY(), place.width - px(8));
     for (std::size_t i = 0; i < options.size(); ++i)
@@ -213,10 +210,18 @@ bool Ui::choice_row(const char* name, std::span<const std::string> options, std:
         ImGui::CloseCurrentPopup();
       }
     set_cursor(x, y, width);
-    ImGui::EndPopup();
+    end_popup();
   }
   ImGui::PopID();
   return changed;
+}
+
+bool Ui::choice_row(const char* name, std::span<const std::string> options, std::string& chosen,
+                    const std::string& tooltip) {
+  auto at = static_cast<std::size_t>(std::find(options.begin(), options.end(), chosen) - options.begin());
+  if (!choice_row(name, options, at, tooltip)) return false;
+  chosen = options[at];
+  return true;
 }
 
 bool Ui::text_field(const char* name, const Rect& place, std::string& line, const char* hint, bool take_focus,

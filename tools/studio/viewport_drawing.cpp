@@ -141,7 +141,13 @@ void Viewport::draw_marks(Desk& desk) {
         ui.fonts().small_strong->CalcTextSizeA(ui.fonts().small_strong->FontSize, FLT_MAX, most, text.c_str());
     Rect place{static_cast<float>(x_) + ui.px(18), static_cast<float>(y_) + ui.px(14), size.x + 2 * margin,
                size.y + margin};
-    place.x = std::min(place.x, ImGui::GetIO().DisplaySize.x - place.width - ui.px(desk.settings.panels ? 320 : 8));
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const bool panels = desk.settings.panels;
+    if (x_ < 0) place.x = 0.5F * (window.x - place.width), place.y = ui.px(k_menu_height + 96);  // no pointer
+    place.x = std::max(ui.px(panels ? k_shelf_width + 2 * k_gap : k_gap),
+                       std::min(place.x, window.x - place.width - ui.px(panels ? k_panel_width + 28 : 8)));
+    place.y = std::max(ui.px(k_menu_height + 8),
+                       std::min(place.y, window.y - ui.px(k_status_height + k_timeline_height + 8) - place.height));
     ui.box(draw, place, faded(t.panel, 0.92F), 4);
     draw.AddText(ui.fonts().small_strong, ui.fonts().small_strong->FontSize,
                  {place.x + margin, place.y + 0.5F * margin}, colour, text.c_str(), nullptr, most);

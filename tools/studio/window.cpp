@@ -98,7 +98,6 @@ void run_window(const WindowOptions& options) {
                 fmt::format("expected a window with OpenGL 3.3, found that there is none ({}); "
                             "update Mesa or the display driver",
                             last_fault()));
-  glfwSetWindowSizeLimits(window.get(), 1000, 700, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   const view::Gl gl = view::load_gl(reinterpret_cast<ProcedureLookUp>(glfwGetProcAddress));
@@ -115,6 +114,13 @@ void run_window(const WindowOptions& options) {
   glfwGetWindowContentScale(window.get(), &scale_x, &scale_y);
   Input input;
   input.scale = std::max(0.75F, std::round(4 * scale_x) / 4);
+  // The least that all has room in, in what the system counts windows in: pixels, or units of its own.
+  int counted = 0, pixels = 0;
+  glfwGetWindowSize(window.get(), &counted, nullptr);
+  glfwGetFramebufferSize(window.get(), &pixels, nullptr);
+  const float unit = input.scale * static_cast<float>(counted) / static_cast<float>(std::max(1, pixels));
+  glfwSetWindowSizeLimits(window.get(), static_cast<int>(std::lround(900 * unit)),
+                          static_cast<int>(std::lround(600 * unit)), GLFW_DONT_CARE, GLFW_DONT_CARE);
   std::error_code failure;
   StudioOptions studio_options{
       .scale = input.scale, .virtual_clock = false, .card = true, .keys = {}, .settings = {}};

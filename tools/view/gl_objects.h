@@ -2,6 +2,7 @@
 // OpenGL objects that free themselves. Each keeps the table of functions that made it and must die while its
 // context is current.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -34,6 +35,9 @@ struct Attribute {
   GLint components;
   bool integer = false;
 };
+/// Records of a place, and of a line's two ends: three floats each, as shaders of marks and lines take them.
+inline constexpr std::array<Attribute, 1> k_place_attributes{{{0, 3}}};
+inline constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};
 
 /// Some of a VertexArray's indices.
 struct IndexRange {

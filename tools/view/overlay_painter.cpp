@@ -61,7 +61,7 @@ void OverlayPainter::set(const Overlay& overlay, const Place& place) {
     std::vector<Eigen::Vector3f> at;
     for (const Eigen::Vector3f& dot : set.at) at.push_back(place(dot));
     dots_.push_back({std::make_unique<VertexArray>(*gl_), set.tint, set.ring, set.radius, set.through});
-    dots_.back().array->set(at, k_mark_attributes, 1);
+    dots_.back().array->set(at, k_place_attributes, 1);
   }
 }
 

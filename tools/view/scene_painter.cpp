@@ -130,9 +130,9 @@ void ScenePainter::load_lines(const sculpt::Scene& scene, const Place& place) {
     for (const Eigen::Vector3f& position : all) result.push_back(place(position));
     return result;
   };
-  cage_points_.set(placed(scene.cage_points), k_mark_attributes, 1);
-  handles_.set(placed(scene.handles), k_mark_attributes, 1);
-  pins_.set(placed(scene.pins), k_mark_attributes, 1);
+  cage_points_.set(placed(scene.cage_points), k_place_attributes, 1);
+  handles_.set(placed(scene.handles), k_place_attributes, 1);
+  pins_.set(placed(scene.pins), k_place_attributes, 1);
   felt_ = scene.felt ? static_cast<float>(std::clamp(scene.felt->share, 0.0, 1.0)) : 0.0F;
   arrow_tint_.reset();
   arrow_ends_.clear();

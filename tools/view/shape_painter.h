@@ -35,16 +35,15 @@ struct MarkStyle {
   float forward = 0.015F;  // towards the eye, so that it lies before the surface
 };
 
-inline constexpr std::array<Attribute, 2> k_line_attributes{{{0, 3}, {1, 3}}};  // its ends; one record a line
-inline constexpr std::array<Attribute, 1> k_mark_attributes{{{0, 3}}};          // one record a mark
-
 class ShapePainter {
  public:
   /// `gl` must outlive it, its context being current whenever a function is called.
   explicit ShapePainter(const Gl& gl);
 
+  /// Of k_line_attributes, one record a line.
   void lines(const VertexArray& lines, const Camera& camera, const Sampling& sampling, const LineStyle& style,
              GLsizei most = INT_MAX) const;
+  /// Of k_place_attributes, one record a mark.
   void marks(const VertexArray& marks, const Camera& camera, const Sampling& sampling,
              const MarkStyle& style) const;
   /// In picture coordinates; what of them lies behind the surface shows faintly (`hidden` of the tint's opacity).

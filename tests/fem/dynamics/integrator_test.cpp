@@ -12,6 +12,7 @@
 #include "fem/measure/energy.h"
 #include "fem/solvers/solver_choice.h"
 #include "subdiv/error.h"
+#include "tests/fem/dynamics/tight_steps.h"
 #include "tests/fem/simulated_solid.h"
 #include "tests/fem/spring_model.h"
 
@@ -19,15 +20,7 @@ namespace argil::fem {
 namespace {
 
 using test::SimulatedSolid;
-
-StepOptions tight(Method method = Method::bdf2) {
-  StepOptions options;
-  options.method = method;
-  options.newton_cap = 30;
-  options.newton_tolerance = 1e-11;
-  options.linear_tolerance = 1e-10;
-  return options;
-}
+using test::tight;
 
 bool same_bits(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return a.cols() == b.cols() &&

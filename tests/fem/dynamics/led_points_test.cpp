@@ -7,10 +7,13 @@
 #include <cmath>
 
 #include "fem/dynamics/guard.h"
+#include "tests/fem/dynamics/tight_steps.h"
 #include "tests/fem/simulated_solid.h"
 
 namespace argil::fem {
 namespace {
+
+using test::tight;
 
 /// A bar shaken at its end, as a smooth function of time that begins at rest.
 struct Shaken {
@@ -46,24 +49,15 @@ struct Shaken {
   std::vector<std::uint32_t> held;
 };
 
-StepOptions options_of(Method method) {
-  StepOptions options;
-  options.method = method;
-  options.newton_cap = 20;
-  options.newton_tolerance = 1e-11;
-  options.linear_tolerance = 1e-10;
-  return options;
-}
-
 class LedOrder : public testing::TestWithParam<Method> {};
 
 TEST_P(LedOrder, IsThatOfTheMethod) {
   const double end = 0.25;
   Shaken exact;
-  exact.run(options_of(Method::velocity_verlet), end, 4000);  // errs by 1/6 at most of what the finest below does
+  exact.run(tight(Method::velocity_verlet), end, 4000);  // errs by 1/6 at most of what the finest below does
   const auto error = [&](int count) {
     Shaken shaken;
-    shaken.run(options_of(GetParam()), end, count);
+    shaken.run(tight(GetParam()), end, count);
     return (shaken.solid.state.positions - exact.solid.state.positions).norm();
   };
   const bool is_implicit = method_kind(GetParam()).is_implicit;
@@ -83,7 +77,7 @@ TEST(LedPoints, TakeTheWorkThatTheBodyGains) {
     Shaken shaken;
     const double start = shaken.solid.model->energy(nodes(shaken.solid.system, shaken.solid.state.positions));
     shaken.solid.discretization.damping *= 0;  // what it would lose is another account
-    const double work = shaken.run(options_of(Method::velocity_verlet), 0.25, count);
+    const double work = shaken.run(tight(Method::velocity_verlet), 0.25, count);
     const double energy = kinetic_energy(shaken.solid.system, shaken.solid.state.velocities) +
                           shaken.solid.model->energy(nodes(shaken.solid.system, shaken.solid.state.positions)) -
                           start;

@@ -12,6 +12,7 @@
 #include "fem/solvers/mass_factor.h"
 #include "fem/solvers/rest_operator.h"
 #include "subdiv/error.h"
+#include "tests/fem/dynamics/tight_steps.h"
 #include "tests/fem/simulated_solid.h"
 #include "tests/fem/spring_model.h"
 
@@ -19,15 +20,7 @@ namespace argil::fem {
 namespace {
 
 using test::SimulatedSolid;
-
-StepOptions tight(Method method) {
-  StepOptions options;
-  options.method = method;
-  options.newton_cap = 30;
-  options.newton_tolerance = 1e-12;
-  options.linear_tolerance = 1e-11;
-  return options;
-}
+using test::tight;
 
 /// A bar held at one end, thrown sideways and stretched so that it turns by some 20° and strains by some 15 %, with
 /// gravity, a spring at its tip and both kinds of damping.

@@ -272,6 +272,38 @@ TEST(Keys, LeaveTheHashOfWhatHasNoneAlone) {
   EXPECT_EQ(plain.hash(), keyed.hash());
 }
 
+TEST(Keys, MoveToAnotherTimeAsTheyAre) {
+  // As if they had been set there: the same hash, for each kind of what has keys.
+  const auto with = [](const std::string& at, const std::string& of) {
+    return bar_and(
+        {"pin where x < 0.01", "select vertices as foot where x < 0.01", "force 0 0 0 as push where x > 0.39",
+         "obstacle floor plane",
+         fmt::format("key {} {} at 0.1", of,
+                     of.starts_with("pin") || of.starts_with("obs") ? "move 0.1 0.2 0.3 rotate 77 axis 1 2 3"
+                                                                    : "0.1 0.2 0.3"),
+         fmt::format("key {} {} at {} interpolation linear", of,
+                     of.starts_with("pin") || of.starts_with("obs") ? "move 0.3 0.1 0.7" : "0.3 0.1 0.7", at)});
+  };
+  for (const std::string of : {"gravity", "force push", "pin foot", "obstacle floor"}) {
+    TestSession moved(with("0.5", of)), there(with("0.8", of));
+    const std::uint64_t before = moved.hash();
+    moved.run({"key " + of + " at 0.5 to 0.8"});
+    EXPECT_EQ(moved.hash(), there.hash()) << of;
+    moved.run({"undo"});
+    EXPECT_EQ(moved.hash(), before) << of;
+    EXPECT_THAT(moved.fault_of("key " + of + " at 0.5 to 0.1").what(), HasSubstr("a key at 0.1 s already")) << of;
+    EXPECT_THAT(moved.fault_of("key " + of + " at 0.4 to 0.6").what(), HasSubstr("there are keys at")) << of;
+    EXPECT_EQ(moved.hash(), before) << of;
+  }
+  // The only one as well, and over others.
+  TestSession one(bar_and({"key gravity 0 0 -1 at 0"}));
+  one.run({"key gravity 0 0 -2 at 1", "key gravity at 0 to 2"});
+  EXPECT_EQ(one.state().loads->gravity_track.times, (std::vector<double>{1, 2}));
+  EXPECT_EQ(one.state().loads->gravity_track.values(2, 1), -1);
+  one.run({"key gravity remove at 2", "key gravity at 1 to 0.25"});
+  EXPECT_EQ(one.state().loads->gravity_track.times, (std::vector<double>{0.25}));
+}
+
 TEST(Keys, SayWhatIsWrong) {
   TestSession test(bar_and({"pin where x < 0.01", "select vertices as wide where x < 0.11",
                             "select vertices as foot where x < 0.01", "force 0 0 0 as push where x > 0.39"}));
@@ -284,6 +316,9 @@ TEST(Keys, SayWhatIsWrong) {
            {"key gravity at 1", "wants a value"},
            {"key gravity interpolation linear", "has no keys yet"},
            {"key gravity remove", "has no keys"},
+           {"key gravity at 1 to 2", "has no keys"},
+           {"key gravity to 2", "which key is to be moved"},
+           {"key gravity 0 0 1 at 1 to 2", "leave out value"},
            {"key gravity 0 0 1 at -1", "must lie between"},
            {"key gravity path -1 0 0 1", "time begins at 0"},
            {"key gravity path 0 0 0", "groups of 4"},

@@ -11,21 +11,12 @@
 #include "sculpt/force_tools/touched.h"
 #include "sculpt/picture.h"
 #include "sculpt/stroke.h"
-#include "tests/sculpt/sessions.h"
+#include "tests/sculpt/force_tools/held_block.h"
 
 namespace argil::sculpt {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<std::string> block(const std::string& space = "default") {
-  return {"new box 3 3 2 size 0.3 0.3 0.2",
-          "select edges angle 30",
-          "sharpen",
-          "levels 1",
-          "space " + space,
-          "pin where z < 0.01"};
-}
 
 std::string what(TestSession& session, const std::string& line) {
   return session.fault_of(line).what();
@@ -37,20 +28,12 @@ const Eigen::VectorXd& mask(const TestSession& session) {
 
 constexpr const char* k_force_tools[] = {"pull", "grab", "inflate", "twist", "pinch", "smooth"};
 
-Tool tool_of(const std::string& name) {
-  Tool tool;
-  tool.name = name;
-  tool.radius = 0.09;
-  tool.strength = 50;
-  return tool;
-}
-
 TEST(Mask, AnEvenMaskMakesEveryToolWeakerByWhatItHides) {
   // Inside the solid as well, and where fields are trilinear over tricubic elements.
   for (const char* space : {"default", "cubic"})
     for (const char* name : k_force_tools)
       for (const double height : {0.2, 0.1}) {
-        TestSession free(block(space)), masked(block(space));
+        TestSession free(held_block(space)), masked(held_block(space));
         masked.run({"set mask 0.75"});
         const Eigen::Vector3d at(0.15, 0.15, height);
         const GripOptions options{.inside = height < 0.2};
@@ -76,7 +59,7 @@ TEST(Mask, AnEvenMaskMakesEveryToolWeakerByWhatItHides) {
 }
 
 TEST(Mask, NetForceIsStillTheDevices) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"set mask x / 0.3"});
   for (const char* name : {"pull", "grab"}) {
     const auto tool = take_hold(session.document(), tool_of(name), {{0.15, 0.15, 0.2}}, {});
@@ -89,7 +72,7 @@ TEST(Mask, NetForceIsStillTheDevices) {
 }
 
 TEST(Mask, ToolsWithoutANetForceHaveNoneUnderAnUnevenMask) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"set mask min(1, x / 0.3 + y)"});
   Eigen::Matrix3Xd bent = session.document().positions();
   for (Eigen::Index i = 0; i < bent.cols(); ++i) bent(2, i) += 0.02 * std::sin(9 * bent(0, i) + 5 * bent(1, i));
@@ -106,7 +89,7 @@ TEST(Mask, ToolsWithoutANetForceHaveNoneUnderAnUnevenMask) {
 }
 
 TEST(Mask, WhatIsMaskedIsNotTouched) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"set mask 1 where x < 0.15"});
   const Touched held = touch(session.document(), tool_of("grab"), {0.15, 0.15, 0.2}, false);
   EXPECT_GT(held.share, 0.2);
@@ -121,7 +104,7 @@ TEST(Mask, WhatIsMaskedIsNotTouched) {
 }
 
 TEST(Mask, WhatIsMaskedWhollyIsRefusedAndTheProbeFeelsIt) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"set mask 1"});
   const std::uint64_t before = session.hash();
   for (const char* tool : {"pull", "grab", "inflate", "twist", "pinch", "smooth", "paint_stiffness", "pin_brush"}) {
@@ -137,7 +120,7 @@ TEST(Mask, WhatIsMaskedWhollyIsRefusedAndTheProbeFeelsIt) {
 }
 
 TEST(Mask, TheBrushPaintsItAndInvertedTakesItAway) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"tool paint_mask radius 0.08 falloff constant", "stroke path 0 0.15 0.15 0.2"});
   const Eigen::Matrix3Xd nodes =
       subdiv::apply(session.document().refinement().stencils.back(), session.document().positions());
@@ -151,7 +134,7 @@ TEST(Mask, TheBrushPaintsItAndInvertedTakesItAway) {
 }
 
 TEST(Mask, APullPaintedAroundIsTheSameBitsLiveAndReplayed) {
-  TestSession live(block()), replayed(block());
+  TestSession live(held_block()), replayed(held_block());
   std::vector<std::string> lines{"tool paint_mask radius 0.1", "stroke path 0 0.1 0.15 0.2 30 0.1 0.25 0.2",
                                  "tool pull radius 0.1 strength 300"};
   live.run(lines);
@@ -165,7 +148,7 @@ TEST(Mask, APullPaintedAroundIsTheSameBitsLiveAndReplayed) {
 }
 
 TEST(Mask, CommandsClearInvertAndTakeTheSelection) {
-  TestSession session(block());
+  TestSession session(held_block());
   session.run({"select faces where z > 0.19 and x < 0.1 and y < 0.1", "mask selected"});
   // One face of nine on top, refined once: three nodes by three.
   EXPECT_EQ(mask(session).sum(), 9);

@@ -5,21 +5,12 @@
 
 #include <numeric>
 
-#include "tests/sculpt/sessions.h"
+#include "tests/sculpt/force_tools/held_block.h"
 
 namespace argil::sculpt {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<std::string> block(const std::string& space) {
-  return {"new box 3 3 2 size 0.3 0.3 0.2",
-          "select edges angle 30",
-          "sharpen",
-          "levels 1",
-          "space " + space,
-          "pin where z < 0.01"};
-}
 
 class Pull : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Pull, testing::Values("default", "cubic"));
@@ -51,13 +42,11 @@ TEST_P(Pull, HalfThePressureIsHalfTheForce) {
 }
 
 TEST_P(Pull, ItsForceIsSpreadOverWhatItTouches) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Eigen::Matrix3Xd& p = session.document().positions();
   for (const char* falloff : {"smooth", "linear", "constant"}) {
-    Tool tool;
+    Tool tool = tool_of("pull");
     tool.falloff = falloff;
-    tool.radius = 0.09;
-    tool.strength = 50;
     const Eigen::Vector3d at(0.15, 0.15, 0.2), device = at + Eigen::Vector3d(0.02, 0, 0.05);
     const PullGrip grip(session.document(), tool, at);
     const fem::AnchorSpring spring = grip.spring({device}, p);
@@ -78,7 +67,7 @@ TEST_P(Pull, ItsForceIsSpreadOverWhatItTouches) {
 }
 
 TEST_P(Pull, TheLargestForceCutsIt) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   Tool tool;
   tool.strength = 100;
   tool.largest_force = 2;
@@ -90,7 +79,7 @@ TEST_P(Pull, TheLargestForceCutsIt) {
 }
 
 TEST_P(Pull, ABrushFinerThanTheMeshStillTakesHold) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   session.run({"tool pull radius 0.001 strength 40"});
   for (const char* line :
        {"stroke from 0.15 0.15 0.2 to 0.15 0.15 0.22 ticks 20", "stroke from 0.13 0.17 0.2 to 0 0 0 ticks 20"}) {
@@ -99,7 +88,7 @@ TEST_P(Pull, ABrushFinerThanTheMeshStillTakesHold) {
 }
 
 TEST_P(Pull, AwayFromTheSurfaceItTouchesNothing) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   session.run({"tool pull radius 0.03"});
   for (const char* from : {"0.15 0.15 0.24", "-0.05 0.15 0.1", "0.15 5 0.2"}) {
     const Error error = session.fault_of(std::string("stroke from ") + from + " to 0 0 0 ticks 20");
@@ -114,7 +103,7 @@ TEST_P(Pull, AwayFromTheSurfaceItTouchesNothing) {
 }
 
 TEST_P(Pull, ASimulatedHandFeelsTheForceAndReplaysToTheSameState) {
-  auto lines = block(GetParam());
+  auto lines = held_block(GetParam());
   lines.insert(lines.end(), {"set damping 10", "tool pull radius 0.1 strength 400"});
   const std::string stroke = "stroke from 0.15 0.15 0.2 to 0.15 0.15 0.3 ticks 300 hold 200";
   TestSession scripted(lines), hand(lines), again(lines);
@@ -133,7 +122,7 @@ TEST_P(Pull, ASimulatedHandFeelsTheForceAndReplaysToTheSameState) {
 }
 
 TEST_P(Pull, ItsWorkGoesIntoTheSolid) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   session.run({"set damping 10", "tool pull radius 0.1 strength 100",
                "stroke from 0.15 0.15 0.2 to 0.15 0.15 0.25 ticks 400 hold 600"});
   // At the end it is all but at rest: the reaction balances the spring, which lifts the middle of the top.

@@ -13,7 +13,7 @@
 #include "sculpt/force_tools/patch_modes.h"
 #include "sculpt/force_tools/probe.h"
 #include "sculpt/force_tools/touched.h"
-#include "tests/sculpt/sessions.h"
+#include "tests/sculpt/force_tools/held_block.h"
 
 namespace argil::sculpt {
 namespace {
@@ -21,23 +21,6 @@ namespace {
 using testing::HasSubstr;
 
 const Eigen::Vector3d k_top(0.15, 0.15, 0.2), k_inside(0.15, 0.15, 0.1);
-
-std::vector<std::string> block(const std::string& space = "default") {
-  return {"new box 3 3 2 size 0.3 0.3 0.2",
-          "select edges angle 30",
-          "sharpen",
-          "levels 1",
-          "space " + space,
-          "pin where z < 0.01"};
-}
-
-Tool tool_of(const std::string& name) {
-  Tool tool;
-  tool.name = name;
-  tool.radius = 0.09;
-  tool.strength = 50;
-  return tool;
-}
 
 // Every control point somewhere else: what must hold for any shape of the body is asked there.
 Eigen::Matrix3Xd crumpled(const Eigen::Matrix3Xd& positions, double by) {
@@ -66,7 +49,7 @@ class Tools : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Tools, testing::Values("default", "cubic"));
 
 TEST_P(Tools, GrabIsARigidHandOnSprings) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Tool tool = tool_of("grab");
   const auto grab = take_hold(session.document(), tool, {k_top}, {});
   const Touched touched = touch(session.document(), tool, k_top, false);
@@ -94,7 +77,7 @@ TEST_P(Tools, GrabIsARigidHandOnSprings) {
 }
 
 TEST_P(Tools, InflatePressesAlongTheNormals) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Tool tool = tool_of("inflate");
   const Eigen::Matrix3Xd& p = session.document().positions();
   const auto inflate = take_hold(session.document(), tool, {k_top}, {});
@@ -137,7 +120,7 @@ TEST_P(Tools, InflatePressesOnLessWhereTheDeviceIsSmaller) {
 }
 
 TEST_P(Tools, InflateInsideWorksOnEveryChangeOfVolume) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Tool tool = tool_of("inflate");
   const auto inflate = take_hold(session.document(), tool, {k_inside}, {});
   const Touched touched = touch(session.document(), tool, k_inside, false);
@@ -175,7 +158,7 @@ TEST_P(Tools, InflateInsideWorksOnEveryChangeOfVolume) {
 }
 
 TEST_P(Tools, TwistIsAPureMomentAboutTheNormal) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Tool tool = tool_of("twist");
   const Eigen::Matrix3Xd& p = session.document().positions();
   const auto twist = take_hold(session.document(), tool, {k_top}, {});
@@ -205,7 +188,7 @@ TEST_P(Tools, TwistIsAPureMomentAboutTheNormal) {
 }
 
 TEST(Tools, TwistCountsTurns) {
-  TestSession session(block());
+  TestSession session(held_block());
   const Eigen::Matrix3Xd& p = session.document().positions();
   const auto twist = take_hold(session.document(), tool_of("twist"), {k_top}, {});
   const auto moment_at = [&](double angle) {
@@ -219,7 +202,7 @@ TEST(Tools, TwistCountsTurns) {
 }
 
 TEST_P(Tools, PinchDrawsTogetherWithoutForceOrMoment) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   for (const Eigen::Vector3d& at : {k_top, k_inside}) {
     const Tool tool = tool_of("pinch");
     const TouchedPatch patch = touch_patch(session.document(), tool, at, false);
@@ -244,7 +227,7 @@ TEST_P(Tools, PinchDrawsTogetherWithoutForceOrMoment) {
 }
 
 TEST_P(Tools, SmoothLeavesFlatSurfacesAndDrawsBumpsDown) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Tool tool = tool_of("smooth");
   const Eigen::Matrix3Xd& p = session.document().positions();
   const auto smooth = take_hold(session.document(), tool, {k_top}, {});
@@ -267,7 +250,7 @@ TEST_P(Tools, SmoothLeavesFlatSurfacesAndDrawsBumpsDown) {
 }
 
 TEST_P(Tools, SmoothPressesABumpFlatAgainstNothing) {
-  auto lines = block(GetParam());
+  auto lines = held_block(GetParam());
   lines.insert(lines.begin() + 1,
                "move 0 0 0.04 where x > 0.09 and x < 0.11 and y > 0.09 and y < 0.11 and z > 0.19");
   lines.insert(lines.end(), {"set damping 20", "tool smooth radius 0.08 strength 200000"});
@@ -283,7 +266,7 @@ TEST_P(Tools, SmoothPressesABumpFlatAgainstNothing) {
 }
 
 TEST(Tools, EveryToolKeepsItsLimit) {
-  TestSession session(block());
+  TestSession session(held_block());
   const Eigen::Matrix3Xd p = crumpled(session.document().positions(), 0.03);
   for (const ToolKind& kind : tool_table()) {
     if (!kind.take_hold) continue;
@@ -359,7 +342,7 @@ TEST(Mirror, AnImageThatTouchesNothingIsRefused) {
 }
 
 TEST(Inside, WhatIsWithinTheRadiusIsTaken) {
-  TestSession session(block());
+  TestSession session(held_block());
   for (const char* falloff : {"smooth", "linear", "constant"}) {
     Tool tool = tool_of("pull");
     tool.falloff = falloff;
@@ -384,7 +367,7 @@ TEST(Inside, WhatIsWithinTheRadiusIsTaken) {
 
 TEST(Inside, ToolsPullWhatIsThere) {
   for (const char* name : {"pull", "grab"}) {
-    TestSession session(block());
+    TestSession session(held_block());
     session.run({fmt::format("tool {} radius 0.06 strength 20000", name), "set damping 20", "set young_modulus 2e4",
                  "stroke from 0.15 0.15 0.1 to 0.15 0.15 0.12 ticks 500 hold 500"});
     const double middle = session.measure("displacement_z at 0.15 0.15 0.1");
@@ -395,7 +378,7 @@ TEST(Inside, ToolsPullWhatIsThere) {
 
 TEST(Volume, InflateAddsItAndDeflateTakesIt) {
   for (const char* at : {"0.15 0.15 0.2", "0.15 0.15 0.1"}) {
-    TestSession session(block());
+    TestSession session(held_block());
     session.run({"set damping 20", "tool inflate radius 0.09 strength 500"});
     const double before = session.measure("volume");
     const std::string stroke = fmt::format("stroke from {0} to {0} ticks 600", at);
@@ -410,7 +393,7 @@ TEST(Volume, InflateAddsItAndDeflateTakesIt) {
 
 TEST(FirstAcceleration, IsHalvedByDoubledMass) {
   const auto speed = [](const char* density) {
-    TestSession session(block());
+    TestSession session(held_block());
     session.run({std::string("set density ") + density, "tool pull radius 0.09 strength 50", "step 1 dt 0.0001"});
     session.run({"stroke path 0 0.15 0.15 0.2 1 0.15 0.15 0.21"});
     return session.state().motion->velocities;
