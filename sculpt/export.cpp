@@ -148,6 +148,15 @@ std::vector<std::string> save_document(const Document& document, const std::file
     if (level > 0)
       names.insert(names.end(), {"strain", "strain_1", "strain_2", "strain_3", "stress", "stress_1", "stress_2",
                                  "stress_3", "pressure", "distortion", "speed"});
+    if (level > 0 && (document.state().plasticity.on || document.state().flow))
+      names.emplace_back("plastic_strain");
+    if (level > 0 && !document.stress_is_known()) {
+      std::erase_if(names,
+                    [](const std::string& name) { return name.starts_with("stress") || name == "pressure"; });
+      notes.emplace_back(
+          "the stress of a body that has flowed is left out: it is known in the default space only; `commit` the "
+          "shape, which leaves it without stress");
+    }
     if (reference) names.emplace_back("error");
     for (const std::string& name : names) {
       const ShownField field = shown_field(document, name, reference);

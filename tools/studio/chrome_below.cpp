@@ -31,6 +31,8 @@ std::vector<double> key_times(const sculpt::State& state) {
   };
   add(state.loads->gravity_track);
   for (const sculpt::AppliedForce& force : state.loads->forces) add(force.track);
+  for (const sculpt::AppliedPressure& pressure : state.loads->pressures) add(pressure.track);
+  add(state.loads->prestress_track);
   for (const sculpt::PinMotion& motion : state.pins->motions) add(motion.track);
   if (state.obstacles)
     for (const sculpt::NamedObstacle& obstacle : *state.obstacles) add(obstacle.track);
