@@ -128,7 +128,7 @@ bool covers(const Obstacle& obstacle, const Eigen::Vector3d& direction, const Ei
 }  // namespace
 
 std::optional<Entry> first_touch(const Obstacle& obstacle, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  constexpr int k_steps = 128;
+  constexpr int k_steps = 64;
   const Eigen::Vector3d way = to - from;
   const double length = std::sqrt(along(way, way));
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
@@ -142,7 +142,10 @@ std::optional<Entry> first_touch(const Obstacle& obstacle, const Eigen::Vector3d
       1e-9 * (obstacle.shape == ObstacleShape::plane ? length : std::min(length, largest_depth(obstacle)));
   double gone = 0;
   for (int step = 0; step < k_steps; ++step) {
-    gone += there.distance;
+    // The distance from a convex shape is convex along the way: Newton's steps do not go past its first zero.
+    const double slope = along(there.normal, way) / length;
+    if (slope >= 0) return std::nullopt;
+    gone -= there.distance / slope;
     if (gone > length) return std::nullopt;
     const Eigen::Vector3d at = from + (gone / length) * way;
     there = signed_distance(obstacle, at);
