@@ -147,9 +147,7 @@ std::vector<std::string> save_document(const Document& document, const std::file
     for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
     if (level > 0)
       names.insert(names.end(), {"strain", "strain_1", "strain_2", "strain_3", "stress", "stress_1", "stress_2",
-                                 "stress_3", "pressure", "distortion", "speed"});
-    if (level > 0 && (document.state().plasticity.on || document.state().flow))
-      names.emplace_back("plastic_strain");
+                                 "stress_3", "pressure", "distortion", "speed", "plastic_strain"});
     if (level > 0 && !document.stress_is_known()) {
       std::erase_if(names,
                     [](const std::string& name) { return name.starts_with("stress") || name == "pressure"; });
