@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sculpt/commands/commands.h"
@@ -86,7 +87,7 @@ fem::Obstacle read_shape(const std::string& shape, const Arguments& arguments) {
 
 // Of the body's longest side: a depth that contact itself does not come to, but where an obstacle was put over it.
 constexpr double k_overlap = 0.01;
-constexpr double k_push_out = 0.5;  // [s] in which it then leaves
+constexpr double k_push_out = 0.5;  // [s] in which it then leaves, as far as its own longest side
 
 /// Softens what an obstacle does that stands in the body from the beginning, and says so.
 void meet_overlap(Session& session, State& next, const NamedObstacle& obstacle) {
@@ -103,17 +104,18 @@ void meet_overlap(Session& session, State& next, const NamedObstacle& obstacle) 
   const Eigen::Matrix3Xd& rest = document.rest();
   const double size = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).maxCoeff();
   if (!(overlap.depth > k_overlap * size)) return;
+  const double duration = k_push_out * std::max(1.0, overlap.depth / size);
   auto motion = std::make_shared<fem::BodyState>(*next.motion);
-  fem::allow_overlap(contact, *motion, obstacle.body.id, k_push_out);
+  fem::allow_overlap(contact, *motion, obstacle.body.id, duration);
   next.motion = motion;
-  session.print(
-      fmt::format("note: the body is in {} already, {} of its {} contact points, the deepest by {:.4g} m; the "
-                  "obstacle pushes it "
-                  "out over the next {:g} s, at {:.4g} m/s and not by the force of that depth. `undo` and place it "
-                  "elsewhere if "
-                  "that is not meant",
-                  obstacle.name, overlap.points, contact.surface->point_count(), overlap.depth, k_push_out,
-                  overlap.depth / k_push_out));
+  session.print(fmt::format(
+      "note: the body is in {} already, {} of its {} contact points, the deepest by {:.4g} m; the "
+      "obstacle pushes it "
+      "out over the next {:.3g} s, at {:.4g} m/s and not by the force of that depth. `undo` and place it "
+      "elsewhere if "
+      "that is not meant",
+      obstacle.name, overlap.points, contact.surface->point_count(), overlap.depth, duration,
+      overlap.depth / duration));
 }
 
 void set_obstacle(Session& session, const Arguments& arguments) {
