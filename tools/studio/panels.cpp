@@ -290,7 +290,7 @@ void draw_panels(Desk& desk, const Layout& layout, const Perform& perform) {
       material_panel(desk);
       break;
     case Panel::physics:
-      physics_panel(desk, x, width);
+      physics_panel(desk, left, width);
       break;
     case Panel::fields:
       draw_fields_panel(desk, perform);
