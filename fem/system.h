@@ -34,10 +34,20 @@ struct LedPoints {
 
 struct Contact;  // fem/contact/contact.h
 
-/// Where friction holds a point of the surface (its number in ContactSurface), in the obstacle's own frame [m].
+/// What a point of the surface (its number in ContactSurface) and an obstacle keep of each other from step to step,
+/// in the obstacle's own frame [m].
 struct ContactGrip {
-  std::uint32_t obstacle = 0, point = 0;  // the obstacle by its id
-  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
+  std::uint32_t obstacle = 0, point = 0;             // the obstacle by its id
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  // where friction holds the point
+  /// Of a point that came in too fast to be met on its way: where, and the outward normal there, along which it is
+  /// sent back. No normal: the nearest side of the obstacle counts.
+  Eigen::Vector3d entry = Eigen::Vector3d::Zero(), entry_normal = Eigen::Vector3d::Zero();
+
+  /// Of a point over which the obstacle was put: so deep it may be at the state's time [m], less by `allowed_rate`
+  /// [m/s] from then on; it counts as that much less deep.
+  double allowed = 0, allowed_rate = 0;
+
+  [[nodiscard]] bool came_in_fast() const { return entry_normal != Eigen::Vector3d::Zero(); }
 };
 
 struct Loads {

@@ -77,12 +77,15 @@ struct Document::Derived {
   std::unique_ptr<fem::Discretization> discretization;
   std::unique_ptr<fem::ShownElements> shown_elements;
   std::shared_ptr<const fem::PlasticFlow> shown_flow;
+  double shown_prestress = 1;  // its share
   bool stress_is_known = true;
 
   fem::ModelChoice model_choice;
   std::unique_ptr<fem::ForceModel> model;
   std::shared_ptr<const fem::PlasticFlow> flow;
-  std::unique_ptr<fem::ForceModel> flowed_model;  // null where nothing has flowed
+  bool keyed_prestress = false;
+  std::unique_ptr<fem::ForceModel> flowed_model;  // null where nothing has flowed and no prestress is keyed
+  std::shared_ptr<double> prestress_share;        // that of flowed_model; null where none is keyed
 
   std::shared_ptr<const Pins> integrator_pins;
   std::unique_ptr<fem::Integrator> integrator;
@@ -92,6 +95,7 @@ struct Document::Derived {
   std::unique_ptr<DocumentLoads> load_parts;
   std::unique_ptr<fem::Loads> loads;  // at `load_time`, if that matters
   double load_time = 0;
+  Eigen::Matrix3Xd loaded;  // control points that `loads` was made for, if that matters
 
   std::shared_ptr<const fem::ContactSurface> contact_surface;
 
@@ -99,6 +103,8 @@ struct Document::Derived {
     integrator.reset();
     flowed_model.reset();
     flow.reset();
+    keyed_prestress = false;
+    prestress_share.reset();
     model.reset();
   }
   void drop_from_discretization() {
@@ -164,7 +170,7 @@ const fem::Discretization& Document::discretization() const {
   return *d.discretization;
 }
 
-const fem::ForceModel& Document::model() const {
+const fem::ForceModel& Document::model_at(double time) const {
   Derived& d = *derived_;
   const fem::Discretization& discretized = discretization();
   if (!d.model || d.model_choice != state_.model) {
@@ -173,20 +179,39 @@ const fem::ForceModel& Document::model() const {
     d.model = fem::make_model(state_.model, discretized.blocks, discretized.rest_nodes);
     d.model_choice = state_.model;
   }
-  if (d.flow != state_.flow) {
-    std::unique_ptr<fem::ForceModel> flowed;
-    if (state_.flow && fem::fits(*state_.flow, discretized.blocks))
-      flowed = fem::make_flowed_model(state_.model, discretized.blocks, discretized.rest_nodes, *state_.flow);
+  const bool keyed = !state_.loads->prestress_track.empty();
+  const double share = prestress_share_at(*state_.loads, time);
+  const auto take = [&](std::unique_ptr<fem::ForceModel> flowed) {
     if (d.integrator) d.integrator->set_model(flowed ? *flowed : *d.model);
     d.flowed_model = std::move(flowed);
+  };
+  if (d.flow != state_.flow || d.keyed_prestress != keyed) {
+    const auto shared = keyed ? std::make_shared<double>(share) : nullptr;
+    std::unique_ptr<fem::ForceModel> flowed;
+    if (state_.flow && fem::fits(*state_.flow, discretized.blocks))
+      flowed =
+          fem::make_flowed_model(state_.model, discretized.blocks, discretized.rest_nodes, *state_.flow, shared);
+    else if (keyed)
+      flowed = fem::make_model(state_.model, discretized.blocks, discretized.rest_nodes, shared);
+    take(std::move(flowed));
     d.flow = state_.flow;
+    d.keyed_prestress = keyed;
+    d.prestress_share = shared;
+  } else if (keyed && *d.prestress_share != share) {
+    *d.prestress_share = share;
+    if (d.integrator) d.integrator->set_model(*d.flowed_model);  // forgets the values of the other share
   }
   return d.flowed_model ? *d.flowed_model : *d.model;
 }
 
 fem::System Document::system() const {
-  const fem::ForceModel& force_model = model();
+  (void)model();
+  return system_as_it_is();
+}
+
+fem::System Document::system_as_it_is() const {
   const Derived& d = *derived_;
+  const fem::ForceModel& force_model = d.flowed_model ? *d.flowed_model : *d.model;
   fem::System system;
   system.rows = &d.discretization->nodes.rows;
   system.rows_transposed = &d.discretization->rows_transposed;
@@ -204,28 +229,32 @@ fem::System Document::system() const {
   return system;
 }
 
-fem::Integrator& Document::integrator() const {
+fem::Integrator& Document::integrator_at(double time) const {
   Derived& d = *derived_;
-  (void)model();
+  (void)model_at(time);
   if (!d.integrator || d.integrator_pins != state_.pins) {
-    d.integrator = std::make_unique<fem::Integrator>(system());
+    d.integrator = std::make_unique<fem::Integrator>(system_as_it_is());
     d.integrator_pins = state_.pins;
   }
   return *d.integrator;
 }
 
-const fem::Loads& Document::loads_at(double time) const {
+const fem::Loads& Document::loads_at(double time, const Eigen::Matrix3Xd& control_points) const {
   Derived& d = *derived_;
   (void)discretization();
-  const bool same = d.load_parts && d.load_pins == state_.pins && d.applied == state_.loads;
+  bool same = d.load_parts && d.load_pins == state_.pins && d.applied == state_.loads;
   if (!same) {
     d.load_parts = std::make_unique<DocumentLoads>(document_loads(*this));
     d.load_pins = state_.pins;
     d.applied = state_.loads;
+    d.loads.reset();
   }
-  if (!same || (d.load_time != time && d.load_parts->change())) {
-    d.loads = std::make_unique<fem::Loads>(d.load_parts->at(time));
+  same = d.loads && (d.load_time == time || !d.load_parts->change()) &&
+         (!d.load_parts->follow() || (d.loaded.cols() == control_points.cols() && d.loaded == control_points));
+  if (!same) {
+    d.loads = std::make_unique<fem::Loads>(d.load_parts->at(time, *d.discretization, control_points));
     d.load_time = time;
+    if (d.load_parts->follow()) d.loaded = control_points;
   }
   return *d.loads;
 }
@@ -245,10 +274,15 @@ std::shared_ptr<const fem::ContactSurface> Document::contact_surface() const {
 
 const fem::ShownElements& Document::shown_elements() const {
   (void)discretization();
-  if (derived_->shown_elements && derived_->shown_flow != state_.flow) derived_->shown_elements.reset();
+  const double share = prestress_share_at(*state_.loads, state_.motion->time);
+  if (derived_->shown_elements && (derived_->shown_flow != state_.flow || derived_->shown_prestress != share))
+    derived_->shown_elements.reset();
   if (!derived_->shown_elements) {
-    derived_->shown_elements = std::make_unique<fem::ShownElements>(refinement().solid(), surface_nodes(rest()),
-                                                                    nodal_fields(*state_.fields));
+    fem::NodalFields fields = nodal_fields(*state_.fields);
+    if (share != 1) fields.prestress *= share;
+    derived_->shown_prestress = share;
+    derived_->shown_elements =
+        std::make_unique<fem::ShownElements>(refinement().solid(), surface_nodes(rest()), fields);
     derived_->stress_is_known = !state_.flow || derived_->shown_elements->take_flow(*state_.flow);
     derived_->shown_flow = state_.flow;
   }
@@ -313,6 +347,17 @@ std::uint64_t Document::state_hash() const {
     if (!force.name.empty()) hash.add(std::string_view(force.name));
     if (!force.track.empty()) add_to_hash(force.track, hash);
   }
+  for (const AppliedPressure& pressure : s.loads->pressures) {
+    hash.add(std::string_view("pressure"));
+    hash.add(pressure.pressure);
+    hash.add(std::span<const std::uint32_t>(pressure.faces));
+    hash.add(std::string_view(pressure.name));
+    if (!pressure.track.empty()) add_to_hash(pressure.track, hash);
+  }
+  if (!s.loads->prestress_track.empty()) {
+    hash.add(std::string_view("prestress over time"));
+    add_to_hash(s.loads->prestress_track, hash);
+  }
   add_selection(*s.selection);
   hash.add(std::uint64_t{s.sets->size()});
   for (const auto& [name, set] : *s.sets) {
@@ -364,6 +409,14 @@ std::uint64_t Document::state_hash() const {
     hash.add(std::uint64_t{grip.obstacle});
     hash.add(std::uint64_t{grip.point});
     add_matrix(grip.anchor);
+    if (grip.came_in_fast()) {
+      add_matrix(grip.entry);
+      add_matrix(grip.entry_normal);
+    }
+    if (grip.allowed > 0) {
+      hash.add(grip.allowed);
+      hash.add(grip.allowed_rate);
+    }
   }
   if (s.obstacles) hash_obstacles(*s.obstacles, hash);
   if (s.plasticity.on) {

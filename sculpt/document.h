@@ -52,6 +52,13 @@ struct Plasticity {
   fem::FlowLaw law;
 };
 
+/// What has left the energy of a body for good [J], since it was made. It acts on nothing and is not hashed; undo
+/// takes it back.
+struct LostEnergy {
+  double friction = 0;  // to obstacles
+  double flow = 0;      // plastic
+};
+
 enum class ElementType { vertices, edges, faces, cells, nodes };
 [[nodiscard]] const char* word(ElementType type);
 struct Selection {
@@ -91,10 +98,20 @@ struct AppliedForce {
 
   [[nodiscard]] bool at_point() const { return faces.empty() && cells.empty(); }
 };
+/// A pressure on boundary faces of the control solid that stays until it is cleared and follows the surface: along
+/// the normal of the moment, on the area of the moment.
+struct AppliedPressure {
+  double pressure = 0;               // [Pa], positive against the face
+  std::vector<std::uint32_t> faces;  // control faces
+  std::string name = {};             // empty: none
+  Track track = {};                  // of one component; stands for `pressure` if it has keys
+};
 struct AppliedLoads {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s²]
   std::vector<AppliedForce> forces;
   Track gravity_track = {};  // stands for `gravity` if it has keys
+  std::vector<AppliedPressure> pressures = {};
+  Track prestress_track = {};  // of one component: the share of the field `prestress` that acts; without keys all
 };
 
 struct Tool {
@@ -124,6 +141,7 @@ struct State {
   std::shared_ptr<const std::vector<NamedObstacle>> obstacles;  // null: none
   Plasticity plasticity;
   std::shared_ptr<const fem::PlasticFlow> flow;  // of the points of the discretization; null: none
+  LostEnergy lost;
   std::shared_ptr<const Selection> selection;
   std::shared_ptr<const std::map<std::string, Selection>> sets;
   int level = 0;
@@ -168,13 +186,18 @@ class Document {
   // Derived, made when asked for and kept while what they depend on stays.
   const subdiv::Refinement& refinement() const;
   const fem::Discretization& discretization() const;
-  const fem::ForceModel& model() const;  // of the body as it has flowed
+  /// Of the body as it has flowed, its prestress as it is now or, where that is keyed, at another time [s]. What
+  /// this, system() and integrator() gave before is then of that time too.
+  const fem::ForceModel& model() const { return model_at(state_.motion->time); }
+  const fem::ForceModel& model_at(double time) const;
   fem::System system() const;
-  fem::Integrator& integrator() const;
+  fem::Integrator& integrator() const { return integrator_at(state_.motion->time); }
+  fem::Integrator& integrator_at(double time) const;
   /// Loads that do not come from a tool, in control points, with the soft pins as springs: now, and at another time
-  /// [s] where some are keyed.
+  /// [s] where some are keyed. Pressures act on the surface as it stands, or where these control points have it.
   const fem::Loads& loads() const { return loads_at(state_.motion->time); }
-  const fem::Loads& loads_at(double time) const;
+  const fem::Loads& loads_at(double time) const { return loads_at(time, positions()); }
+  const fem::Loads& loads_at(double time, const Eigen::Matrix3Xd& control_points) const;
   /// The boundary as obstacles meet it. @throws Error (bad_input) at level 0 with faces of other than four corners.
   std::shared_ptr<const fem::ContactSurface> contact_surface() const;
   const fem::ShownElements& shown_elements() const;  // for strain and stress
@@ -191,6 +214,8 @@ class Document {
   Progress progress;  // told while something derived is made; what it throws leaves the document as it is
 
  private:
+  fem::System system_as_it_is() const;  // with the model of the time last asked for
+
   State state_;
   struct Derived;
   mutable std::unique_ptr<Derived> derived_;

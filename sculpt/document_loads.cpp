@@ -116,6 +116,10 @@ DocumentLoads document_loads(const Document& document) {
     else
       result.keyed_.push_back({force.track, forces_of(document, force, one).row(0).transpose()});
   }
+  for (const AppliedPressure& pressure : applied.pressures)
+    result.pressures_.push_back(
+        {pressure, fem::surface_patch(d, document.refinement().solid(),
+                                      finest_faces(document.refinement(), pressure.faces))});
   result.motions_ = pins.motions;
   for (const SoftPin& pin : pins.nodes) {
     const StencilRow row = d.nodes.rows.row(d.surface_node_from_vertex[pin.node]);
@@ -131,11 +135,18 @@ DocumentLoads document_loads(const Document& document) {
   return result;
 }
 
-fem::Loads DocumentLoads::at(double time) const {
+fem::Loads DocumentLoads::at(double time, const fem::Discretization& discretization,
+                             const Eigen::Matrix3Xd& control_points) const {
   fem::Loads loads = lasting_;
   for (const KeyedForce& keyed : keyed_) {
     const Eigen::Vector3d value = value_at(keyed.track, time);
     for (Eigen::Index i = 0; i < loads.forces.cols(); ++i) loads.forces.col(i) += keyed.weights[i] * value;
+  }
+  if (!pressures_.empty()) {
+    const Eigen::Matrix3Xd nodes = subdiv::apply(discretization.nodes.rows, control_points);
+    for (const Pressure& pressure : pressures_)
+      loads.forces +=
+          fem::pressure_forces(discretization, pressure.patch, nodes, pressure_at(pressure.applied, time));
   }
   for (const LedSpring& led : led_) {
     fem::AnchorSpring& spring = loads.springs[led.spring];
@@ -192,6 +203,14 @@ Eigen::Vector3d force_at(const AppliedForce& force, double time) {
 
 Eigen::Vector3d gravity_at(const AppliedLoads& loads, double time) {
   return loads.gravity_track.empty() ? loads.gravity : Eigen::Vector3d(value_at(loads.gravity_track, time));
+}
+
+double pressure_at(const AppliedPressure& pressure, double time) {
+  return pressure.track.empty() ? pressure.pressure : value_at(pressure.track, time)[0];
+}
+
+double prestress_share_at(const AppliedLoads& loads, double time) {
+  return loads.prestress_track.empty() ? 1 : value_at(loads.prestress_track, time)[0];
 }
 
 fem::Falloff falloff_by_word(const std::string& word) {

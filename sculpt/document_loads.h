@@ -13,8 +13,12 @@ namespace argil::sculpt {
 /// control points what is keyed changes with time.
 class DocumentLoads {
  public:
-  [[nodiscard]] fem::Loads at(double time) const;
-  [[nodiscard]] bool change() const { return !keyed_.empty() || !led_.empty(); }
+  /// Pressures act where the control points have the surface, of the discretization that this was made of.
+  [[nodiscard]] fem::Loads at(double time, const fem::Discretization& discretization,
+                              const Eigen::Matrix3Xd& control_points) const;
+  [[nodiscard]] bool change() const { return !keyed_.empty() || !led_.empty() || !pressures_.empty(); }
+  /// Whether they depend on where the body is.
+  [[nodiscard]] bool follow() const { return !pressures_.empty(); }
 
  private:
   friend DocumentLoads document_loads(const Document& document);
@@ -22,11 +26,16 @@ class DocumentLoads {
     Track track;
     Eigen::VectorXd weights;  // of the control points
   };
+  struct Pressure {
+    AppliedPressure applied;
+    fem::SurfacePatch patch;
+  };
   struct LedSpring {
     std::size_t spring, motion;
   };
   fem::Loads lasting_;
   std::vector<KeyedForce> keyed_;
+  std::vector<Pressure> pressures_;
   std::vector<LedSpring> led_;
   std::vector<PinMotion> motions_;
 };
@@ -44,6 +53,9 @@ class DocumentLoads {
 /// What acts now: the value of its track, or its own.
 [[nodiscard]] Eigen::Vector3d force_at(const AppliedForce& force, double time);
 [[nodiscard]] Eigen::Vector3d gravity_at(const AppliedLoads& loads, double time);
+[[nodiscard]] double pressure_at(const AppliedPressure& pressure, double time);  // [Pa]
+/// Of the painted prestress that acts.
+[[nodiscard]] double prestress_share_at(const AppliedLoads& loads, double time);
 
 /// The material point at a rest position. @throws Error (bad_input) if it lies outside, with the remedy.
 [[nodiscard]] fem::MaterialPoint material_point(const Document& document, const Eigen::Vector3d& rest_position);

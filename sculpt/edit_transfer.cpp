@@ -117,6 +117,16 @@ std::shared_ptr<const AppliedLoads> EditTransfer::follow(const AppliedLoads& loa
     else
       result->forces.push_back(std::move(there));
   }
+  for (const AppliedPressure& pressure : loads.pressures) {
+    AppliedPressure there = pressure;
+    there.faces = follow(ElementType::faces, pressure.faces);
+    std::erase_if(there.faces, [&](std::uint32_t f) { return !solid_->is_boundary(FaceId{f}); });
+    if (there.faces.empty())
+      ++lost;
+    else
+      result->pressures.push_back(std::move(there));
+  }
+  result->prestress_track = loads.prestress_track;
   return result;
 }
 

@@ -147,7 +147,14 @@ std::vector<std::string> save_document(const Document& document, const std::file
     for (const FieldInfo& info : field_table()) names.emplace_back(info.word);
     if (level > 0)
       names.insert(names.end(), {"strain", "strain_1", "strain_2", "strain_3", "stress", "stress_1", "stress_2",
-                                 "stress_3", "pressure", "distortion", "speed"});
+                                 "stress_3", "pressure", "distortion", "speed", "plastic_strain"});
+    if (level > 0 && !document.stress_is_known()) {
+      std::erase_if(names,
+                    [](const std::string& name) { return name.starts_with("stress") || name == "pressure"; });
+      notes.emplace_back(
+          "the stress of a body that has flowed is left out: it is known in the default space only; `commit` the "
+          "shape, which leaves it without stress");
+    }
     if (reference) names.emplace_back("error");
     const Progress gathering = document.progress.of("gathering fields");
     for (const std::string& name : names) {

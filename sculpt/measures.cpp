@@ -145,6 +145,9 @@ const std::vector<MeasureInfo>& measure_table() {
         {"felt_stiffness", "N/m", "of the body under the tool's brush at a material point, as the probe reads it",
          true},
         {"contact_force", "N", "what the obstacles apply"},
+        {"contact_energy", "J", "stored in contact with obstacles, at depth and in the springs of friction"},
+        {"friction_loss", "J", "what friction at obstacles has taken since the body was made"},
+        {"flow_loss", "J", "what plastic flow has taken since the body was made"},
         {"contact_depth", "m", "largest depth of a point of the boundary in an obstacle"},
         {"max_plastic_strain", "", "largest equivalent strain to which a quadrature point has flowed"},
         {"reaction", "N", "what the pins apply", false, true},
@@ -245,6 +248,12 @@ double measure(const Document& document, const MeasureQuery& query) {
                       asked.kind);
   if (name == "load_energy") return fem::load_potential(document.loads(), document.rest(), document.positions());
   if (name == "spring_energy") return fem::spring_energy(document.loads().springs, document.positions());
+  if (name == "contact_energy") {
+    const auto contact = contact_at(document, motion.time);
+    return contact ? fem::stored_energy(*contact, motion) : 0;
+  }
+  if (name == "friction_loss") return document.state().lost.friction;
+  if (name == "flow_loss") return document.state().lost.flow;
   if (name == "contact_depth") return largest_contact_depth(document);
   if (name.starts_with("contact_force")) return axis_of(name, total_contact(document).force);
   if (name == "max_plastic_strain") return largest_plastic_strain(document);

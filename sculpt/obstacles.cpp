@@ -161,6 +161,15 @@ std::string description(const NamedObstacle& obstacle) {
   return text;
 }
 
+std::vector<std::string> left_out_of_linearisation(const State& state) {
+  std::vector<std::string> names;
+  if (state.obstacles)
+    for (const NamedObstacle& obstacle : *state.obstacles) names.push_back("obstacle " + obstacle.name);
+  for (const AppliedPressure& pressure : state.loads->pressures)
+    names.push_back(pressure.name.empty() ? "pressure" : "pressure " + pressure.name);
+  return names;
+}
+
 void hash_obstacles(const std::vector<NamedObstacle>& obstacles, Hash& hash) {
   for (const NamedObstacle& obstacle : obstacles) {
     const fem::Obstacle& body = obstacle.body;

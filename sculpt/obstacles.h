@@ -41,6 +41,10 @@ void remove_obstacle(State& state, const std::string& name);
 /// Lets go of what friction holds, as where the points of the surface are others.
 void drop_grips(State& state);
 
+/// What acts on a body and is not in its stiffness matrix, "obstacle floor", "pressure wind": those who linearise
+/// should say that they leave it out.
+[[nodiscard]] std::vector<std::string> left_out_of_linearisation(const State& state);
+
 /// "floor: plane at 0 0 0, normal 0 0 1, friction 0.5", and a line for each for `info`.
 [[nodiscard]] std::string description(const NamedObstacle& obstacle);
 

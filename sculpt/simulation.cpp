@@ -46,14 +46,41 @@ const char* cause_of(fem::GuardFinding finding) {
 /// Takes the body that has moved on, and lets it flow for `length` [s].
 void take_motion(Document& document, State next, const fem::BodyState& motion, double length) {
   next.motion = std::make_shared<fem::BodyState>(motion);
+  std::shared_ptr<fem::PlasticFlow> flow;
   if (next.plasticity.on && !next.guard.frozen) {
     const fem::Discretization& d = document.discretization();
     const Eigen::Matrix3Xd nodes = subdiv::apply(d.nodes.rows, motion.positions);
-    auto flow = next.flow ? std::make_shared<fem::PlasticFlow>(*next.flow) : std::make_shared<fem::PlasticFlow>();
-    const fem::FlowReport report = fem::flow(d.blocks, nodes, next.plasticity.law, length, *flow);
-    if (report.points > 0) next.flow = flow;
+    flow = next.flow ? std::make_shared<fem::PlasticFlow>(*next.flow) : std::make_shared<fem::PlasticFlow>();
+    if (fem::flow(d.blocks, nodes, next.plasticity.law, length, *flow).points == 0) flow = nullptr;
   }
+  if (!flow) {
+    document.assign(std::move(next));
+    return;
+  }
+  // What the flow takes is what the law itself loses by it; the next step would ask for the same energies.
+  const double stored = document.integrator_at(motion.time).elastic_energy(motion.positions);
+  next.flow = flow;
+  document.assign(next);
+  next.lost.flow += stored - document.integrator_at(motion.time).elastic_energy(motion.positions);
   document.assign(std::move(next));
+}
+
+/// Loads of a step from there, without those of a tool, taken where the method balances them. Pressure acts on the
+/// surface as it will be then if it goes on as it does.
+fem::Loads loads_of_step(const Document& document, const fem::BodyState& motion, double length) {
+  const State& state = document.state();
+  const double until = fem::load_share(state.method, state.spectral_radius) * length, time = motion.time + until;
+  fem::Loads loads = state.loads->pressures.empty()
+                         ? document.loads_at(time)
+                         : document.loads_at(time, motion.positions + until * motion.velocities);
+  loads.contact = contact_at(document, motion.time + length);
+  if (!state.pins->motions.empty()) loads.led = led_points(*state.pins, motion, motion.time + length);
+  return loads;
+}
+
+bool has_friction(const fem::Loads& loads) {
+  return loads.contact && std::ranges::any_of(loads.contact->obstacles,
+                                              [](const fem::Obstacle& obstacle) { return obstacle.friction > 0; });
 }
 
 }  // namespace
@@ -73,21 +100,23 @@ void simulation_step(Session& session, const fem::Loads& tool, double time_step)
   const double length = time_step / next.substeps;
   try {
     for (int part = 0; part < next.substeps; ++part) {
-      fem::Loads loads = document.loads_at(motion.time + load_share * length);
+      fem::Loads loads = loads_of_step(document, motion, length);
       add_loads(loads, tool);
-      loads.contact = contact_at(document, motion.time + length);
-      if (!next.pins->motions.empty()) loads.led = led_points(*next.pins, motion, motion.time + length);
+      // Keyed prestress is taken with the loads.
+      fem::Integrator& integrator = document.integrator_at(motion.time + load_share * length);
+      const fem::BodyState before_part = has_friction(loads) ? motion : fem::BodyState{};
       if (next.guard_on) {
         const fem::GuardedReport report =
-            fem::guarded_step(document.integrator(), loads, motion, next.guard, length, options, clock);
+            fem::guarded_step(integrator, loads, motion, next.guard, length, options, clock);
         fem::append(record.report, report.step);
         record.substeps = std::max(record.substeps, report.substeps);
         if (report.finding != fem::GuardFinding::none) record.finding = report.finding;
         record.remedy = std::max(record.remedy, report.remedy);
         record.share = std::min(record.share, report.share);
       } else {
-        fem::append(record.report, document.integrator().step(loads, motion, length, options, clock));
+        fem::append(record.report, integrator.step(loads, motion, length, options, clock));
       }
+      if (has_friction(loads)) next.lost.friction += fem::friction_loss(*loads.contact, before_part, motion);
       take_motion(document, next, motion, length);
       next = document.state();
     }

@@ -36,7 +36,8 @@ class Row {
 
 struct Balance {
   fem::Energy energy;
-  double springs = 0, loads = 0, volume = 0, min_volume_ratio = 1;
+  double springs = 0, loads = 0, contact = 0, volume = 0, min_volume_ratio = 1;
+  LostEnergy lost;
   fem::Momentum momentum;
   fem::Wrench reaction, tool;
 };
@@ -51,6 +52,9 @@ Balance balance_of(const Document& document, const fem::Loads& tool) {
   balance.springs =
       fem::spring_energy(loads.springs, motion.positions) + fem::spring_energy(tool.springs, motion.positions);
   balance.loads = fem::load_potential(loads, document.rest(), motion.positions);
+  if (const auto contact = contact_at(document, motion.time))
+    balance.contact = fem::stored_energy(*contact, motion);
+  balance.lost = document.state().lost;
   balance.volume = fem::volume(document.discretization(), nodes);
   balance.min_volume_ratio = fem::min_volume_ratio(document.discretization().blocks, nodes);
   balance.momentum = fem::momentum(system, motion);
@@ -73,7 +77,11 @@ Row row_of(const Balance& balance, double time, const StepRecord& record, std::s
   row.add("elastic_J", balance.energy.elastic);
   row.add("springs_J", balance.springs);
   row.add("loads_J", balance.loads);
-  row.add("total_J", balance.energy.kinetic + balance.energy.elastic + balance.springs + balance.loads);
+  row.add("contact_J", balance.contact);
+  row.add("friction_loss_J", balance.lost.friction);
+  row.add("flow_loss_J", balance.lost.flow);
+  row.add("total_J", balance.energy.kinetic + balance.energy.elastic + balance.springs + balance.loads +
+                         balance.contact + balance.lost.friction + balance.lost.flow);
   row.add("momentum", "Ns", balance.momentum.linear);
   row.add("angular_momentum", "Nms", balance.momentum.angular);
   row.add("volume_m3", balance.volume);

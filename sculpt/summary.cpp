@@ -102,6 +102,9 @@ std::string summary_json(const Session& session, const std::string& name, int th
   if (!document.state().loads->gravity_track.empty()) keyed.push_back("gravity");
   for (const AppliedForce& force : document.state().loads->forces)
     if (!force.track.empty()) keyed.push_back("force " + force.name);
+  for (const AppliedPressure& pressure : document.state().loads->pressures)
+    if (!pressure.track.empty()) keyed.push_back("pressure " + pressure.name);
+  if (!document.state().loads->prestress_track.empty()) keyed.push_back("prestress");
   for (const PinMotion& motion : document.state().pins->motions) keyed.push_back("pin " + motion.name);
   if (!keyed.empty()) json["keyed"] = keyed;
   json["threads"] = threads;

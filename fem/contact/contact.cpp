@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "fem/parallel.h"
 #include "fem/solvers/stencil_product.h"
@@ -9,6 +10,11 @@
 namespace argil::fem {
 
 namespace {
+
+// Of an obstacle's half thickness in a step: points that are slower are met by its nearest side.
+constexpr double k_fast_share = 0.5;
+// Times as far as it would go by itself a point is looked ahead for, as loads may drive it on.
+constexpr double k_reach = 1.5;
 
 double size_of(const Eigen::Vector3d& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -56,6 +62,70 @@ ContactStep::ContactStep(const Contact& contact, const BodyState& begin, double 
   }
   multiply(contact.surface->rows, begin.positions, begin_points_);
   limits_.assign(contact.obstacles.size() * contact.surface->point_count(), 0.0);
+  length_ = time - begin.time;
+  find_entries();
+  for (const ContactGrip& grip : begin.grips) {
+    const double left = grip.allowed - grip.allowed_rate * length_;
+    if (!(left > 0) || grip.point >= contact.surface->point_count()) continue;
+    const auto obstacle = std::ranges::find(contact.obstacles, grip.obstacle, &Obstacle::id);
+    if (obstacle == contact.obstacles.end()) continue;
+    allowed_.resize(limits_.size(), 0.0);
+    allowed_[static_cast<std::size_t>(obstacle - contact.obstacles.begin()) * contact.surface->point_count() +
+             grip.point] = left;
+  }
+}
+
+void ContactStep::take_entry(std::size_t obstacle, std::size_t point, const Entry& entry) {
+  entry_of_.resize(limits_.size(), 0);
+  entries_.push_back(entry);
+  entry_of_[obstacle * contact_->surface->point_count() + point] = static_cast<std::uint32_t>(entries_.size());
+}
+
+void ContactStep::find_entries() {
+  const std::size_t points = contact_->surface->point_count();
+  Eigen::Matrix3Xd velocities;
+  for (std::size_t o = 0; o < now_.size(); ++o) {
+    const Obstacle& obstacle = contact_->obstacles[o];
+    const double thickness = largest_depth(obstacle);
+    if (!std::isfinite(thickness)) continue;
+    if (velocities.size() == 0) multiply(contact_->surface->rows, begin_->velocities, velocities);
+    std::vector<std::optional<Entry>> found(points);
+    parallel_for(points, 1024, [&](std::size_t i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const Eigen::Vector3d x = begin_points_.col(column), v = velocities.col(column);
+      const Eigen::Vector3d from = before_[o].own(x);
+      const ContactGrip* grip = begin_->grips.empty() ? nullptr : held(o, i);
+      if (grip && grip->came_in_fast()) {
+        const Entry entry{grip->entry, grip->entry_normal};
+        if (signed_distance(obstacle, entry, from).normal == entry.normal &&
+            along(entry.at - from, entry.normal) > 0)
+          found[i] = entry;
+      }
+      if (found[i] || !(length_ > 0)) return;
+      const Eigen::Vector3d way = now_[o].own(x + length_ * v) - from;
+      if (size_of(way) > k_fast_share * thickness) found[i] = first_touch(obstacle, from, from + k_reach * way);
+    });
+    for (std::size_t i = 0; i < points; ++i)
+      if (found[i]) take_entry(o, i, *found[i]);
+  }
+}
+
+const ContactGrip* ContactStep::held(std::size_t obstacle, std::size_t point) const {
+  const std::pair key{contact_->obstacles[obstacle].id, static_cast<std::uint32_t>(point)};
+  const auto grip = std::lower_bound(begin_->grips.begin(), begin_->grips.end(), key,
+                                     [](const ContactGrip& g, const auto& wanted) {
+                                       return std::pair{g.obstacle, g.point} < wanted;
+                                     });
+  return grip != begin_->grips.end() && std::pair{grip->obstacle, grip->point} == key ? &*grip : nullptr;
+}
+
+SignedDistance ContactStep::distance(std::size_t obstacle, std::size_t point, const Eigen::Vector3d& own) const {
+  const std::size_t place = obstacle * contact_->surface->point_count() + point;
+  const std::uint32_t entry = entry_of_.empty() ? 0 : entry_of_[place];
+  SignedDistance result = entry > 0 ? signed_distance(contact_->obstacles[obstacle], entries_[entry - 1], own)
+                                    : signed_distance(contact_->obstacles[obstacle], own);
+  if (!allowed_.empty()) result.distance += allowed_[place];
+  return result;
 }
 
 Touch ContactStep::touch(std::size_t obstacle, std::size_t point, const Eigen::Vector3d& x,
@@ -71,14 +141,12 @@ Touch ContactStep::touch(std::size_t obstacle, std::size_t point, const Eigen::V
   result.stiffness = (of.stiffness > 0 ? of.stiffness : surface.stiffness[point]) * surface.areas[point];
   result.limit = of.friction * result.stiffness * result.depth;
   if (of.friction == 0) return result;
-  const auto grip = std::lower_bound(begin_->grips.begin(), begin_->grips.end(), std::pair{of.id, result.point},
-                                     [](const ContactGrip& g, const auto& key) {
-                                       return std::pair{g.obstacle, g.point} < key;
-                                     });
-  const bool held = grip != begin_->grips.end() && grip->obstacle == of.id && grip->point == result.point;
-  const Eigen::Vector3d anchor =
-      held ? grip->anchor
-           : before_[obstacle].own(Eigen::Vector3d(begin_points_.col(static_cast<Eigen::Index>(point))));
+  const ContactGrip* grip = held(obstacle, point);
+  Eigen::Vector3d anchor = before_[obstacle].own(begin_points_.col(static_cast<Eigen::Index>(point)));
+  if (grip)
+    anchor = grip->anchor;
+  else if (!entry_of_.empty() && entry_of_[obstacle * surface.point_count() + point] > 0)
+    anchor = entries_[entry_of_[obstacle * surface.point_count() + point] - 1].at;
   const Eigen::Vector3d away = x - now_[obstacle].world(anchor);
   result.stretch = away - along(away, result.normal) * result.normal;
   return result;
@@ -86,14 +154,13 @@ Touch ContactStep::touch(std::size_t obstacle, std::size_t point, const Eigen::V
 
 void ContactStep::set_state(const Eigen::Matrix3Xd& positions) {
   const std::size_t points = contact_->surface->point_count();
-  Eigen::Matrix3Xd x;
-  multiply(contact_->surface->rows, positions, x);
+  multiply(contact_->surface->rows, positions, points_);
+  const Eigen::Matrix3Xd& x = points_;
   std::vector<std::uint8_t> touching(limits_.size());
   for (std::size_t o = 0; o < now_.size(); ++o)
     parallel_for(points, 1024, [&](std::size_t i) {
       const Eigen::Vector3d at = x.col(static_cast<Eigen::Index>(i));
-      const SignedDistance own = signed_distance(contact_->obstacles[o], now_[o].own(at));
-      touching[o * points + i] = own.distance < 0 ? 1 : 0;
+      touching[o * points + i] = distance(o, i, now_[o].own(at)).distance < 0 ? 1 : 0;
     });
   touches_.clear();
   std::fill(limits_.begin(), limits_.end(), 0.0);
@@ -101,7 +168,7 @@ void ContactStep::set_state(const Eigen::Matrix3Xd& positions) {
     if (!touching[k]) continue;
     const std::size_t o = k / points, i = k % points;
     const Eigen::Vector3d at = x.col(static_cast<Eigen::Index>(i));
-    touches_.push_back(touch(o, i, at, signed_distance(contact_->obstacles[o], now_[o].own(at))));
+    touches_.push_back(touch(o, i, at, distance(o, i, now_[o].own(at))));
     limits_[k] = touches_.back().limit;
   }
 }
@@ -173,7 +240,7 @@ double ContactStep::energy(const Eigen::Matrix3Xd& positions) const {
   return parallel_sum(limits_.size(), 1024, [&](std::size_t k) {
     const std::size_t o = k / points, i = k % points;
     const Eigen::Vector3d at = x.col(static_cast<Eigen::Index>(i));
-    const SignedDistance own = signed_distance(contact_->obstacles[o], now_[o].own(at));
+    const SignedDistance own = distance(o, i, now_[o].own(at));
     double sum = 0;
     if (own.distance < 0) {
       const Touch t = touch(o, i, at, own);
@@ -194,7 +261,66 @@ std::vector<ContactGrip> ContactStep::grips() const {
     const Obstacle& of = contact_->obstacles[t.obstacle];
     if (of.friction == 0) continue;
     const double share = t.slips() ? t.limit / (t.stiffness * size_of(t.stretch)) : 1.0;
-    result.push_back({of.id, t.point, now_[t.obstacle].own(t.position - share * t.stretch)});
+    result.push_back(
+        {.obstacle = of.id, .point = t.point, .anchor = now_[t.obstacle].own(t.position - share * t.stretch)});
+  }
+  const std::vector<ContactGrip> others = grips_without_friction();
+  if (others.empty()) return result;
+  // A point that both have is one grip.
+  std::vector<ContactGrip> all;
+  auto friction = result.cbegin();
+  for (const ContactGrip& entry : others) {
+    const auto before = [](const ContactGrip& a, const ContactGrip& b) {
+      return std::pair{a.obstacle, a.point} < std::pair{b.obstacle, b.point};
+    };
+    while (friction != result.cend() && before(*friction, entry)) all.push_back(*friction++);
+    all.push_back(entry);
+    if (friction != result.cend() && !before(entry, *friction)) all.back().anchor = (friction++)->anchor;
+  }
+  all.insert(all.end(), friction, result.cend());
+  return all;
+}
+
+std::optional<Entry> ContactStep::entry_kept(std::size_t obstacle, std::size_t point,
+                                             const Eigen::Vector3d& own) const {
+  const Obstacle& of = contact_->obstacles[obstacle];
+  const double thickness = largest_depth(of);
+  if (!std::isfinite(thickness)) return std::nullopt;
+  std::optional<Entry> entry;
+  if (const std::uint32_t known =
+          entry_of_.empty() ? 0 : entry_of_[obstacle * contact_->surface->point_count() + point]) {
+    entry = entries_[known - 1];
+  } else {
+    // What was driven on so that it could not be foreseen.
+    const Eigen::Vector3d from = before_[obstacle].own(begin_points_.col(static_cast<Eigen::Index>(point)));
+    if (size_of(own - from) > k_fast_share * thickness) entry = first_touch(of, from, own);
+  }
+  if (!entry) return entry;
+  const SignedDistance nearest = signed_distance(of, own);
+  const bool plain = nearest.distance < 0 && -nearest.distance < k_fast_share * thickness &&
+                     along(nearest.normal, entry->normal) > 0.5;
+  return plain ? std::nullopt : entry;
+}
+
+std::vector<ContactGrip> ContactStep::grips_without_friction() const {
+  std::vector<ContactGrip> result;
+  const std::size_t points = contact_->surface->point_count();
+  for (std::size_t o = 0; o < now_.size(); ++o) {
+    const Obstacle& of = contact_->obstacles[o];
+    if (allowed_.empty() && !std::isfinite(largest_depth(of))) continue;
+    for (std::size_t i = 0; i < points; ++i) {
+      const Eigen::Vector3d own = now_[o].own(points_.col(static_cast<Eigen::Index>(i)));
+      ContactGrip grip{.obstacle = of.id, .point = static_cast<std::uint32_t>(i), .anchor = own};
+      if (const std::optional<Entry> entry = entry_kept(o, i, own)) {
+        grip.anchor = grip.entry = entry->at;
+        grip.entry_normal = entry->normal;
+      }
+      if (const double left = allowed_.empty() ? 0 : allowed_[o * points + i]; left > 0) {
+        grip.allowed = std::clamp(-signed_distance(of, own).distance, 0.0, left);
+        grip.allowed_rate = held(o, i)->allowed_rate;
+      }
+      if (grip.came_in_fast() || grip.allowed > 0) result.push_back(grip);
+    }
   }
   return result;
 }
@@ -211,6 +337,77 @@ std::vector<AnchorSpring> ContactStep::springs() const {
     result.push_back(std::move(spring));
   }
   return result;
+}
+
+namespace {
+
+/// Calls with every point within, and its depth.
+template <class Visit>
+void visit_within(const Contact& contact, const BodyState& state, std::uint32_t id, const Visit& visit) {
+  const auto obstacle = std::ranges::find(contact.obstacles, id, &Obstacle::id);
+  if (obstacle == contact.obstacles.end()) return;
+  const ObstaclePose pose = pose_at(*obstacle, state.time);
+  Eigen::Matrix3Xd x;
+  multiply(contact.surface->rows, state.positions, x);
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const Eigen::Vector3d own = pose.own(x.col(i));
+    const double distance = signed_distance(*obstacle, own).distance;
+    if (distance < 0) visit(static_cast<std::uint32_t>(i), own, -distance);
+  }
+}
+
+}  // namespace
+
+Overlap overlap(const Contact& contact, const BodyState& state, std::uint32_t id) {
+  Overlap result;
+  visit_within(contact, state, id, [&](std::uint32_t, const Eigen::Vector3d&, double depth) {
+    ++result.points;
+    result.depth = std::max(result.depth, depth);
+  });
+  return result;
+}
+
+void allow_overlap(const Contact& contact, BodyState& state, std::uint32_t id, double duration) {
+  const double rate = overlap(contact, state, id).depth / duration;
+  std::erase_if(state.grips, [&](const ContactGrip& grip) { return grip.obstacle == id; });
+  visit_within(contact, state, id, [&](std::uint32_t point, const Eigen::Vector3d& own, double depth) {
+    ContactGrip grip{.obstacle = id, .point = point, .anchor = own};
+    grip.allowed = depth;
+    grip.allowed_rate = rate;
+    state.grips.push_back(grip);
+  });
+  std::ranges::stable_sort(state.grips, [](const ContactGrip& a, const ContactGrip& b) {
+    return std::pair{a.obstacle, a.point} < std::pair{b.obstacle, b.point};
+  });
+}
+
+double stored_energy(const Contact& contact, const BodyState& state) {
+  ContactStep step(contact, state, state.time);
+  step.set_state(state.positions);
+  double sum = 0;
+  for (const Touch& t : step.touches()) {
+    sum += 0.5 * t.stiffness * t.depth * t.depth;
+    if (t.limit > 0) sum += friction_energy(t.stiffness, size_of(t.stretch), t.limit);
+  }
+  return sum;
+}
+
+double friction_loss(const Contact& contact, const BodyState& begin, const BodyState& end) {
+  ContactStep before(contact, begin, begin.time), step(contact, begin, end.time);
+  before.set_state(begin.positions);
+  step.set_state(end.positions);
+  const auto key = [](const Touch& t) { return std::pair{t.obstacle, t.point}; };
+  double sum = 0;
+  auto still = step.touches().begin();
+  for (const Touch& t : before.touches()) {
+    if (!(t.limit > 0)) continue;
+    while (still != step.touches().end() && key(*still) < key(t)) ++still;
+    if (still == step.touches().end() || key(*still) != key(t))
+      sum += friction_energy(t.stiffness, size_of(t.stretch), t.limit);
+  }
+  for (const Touch& t : step.touches())
+    if (t.limit > 0 && t.slips()) sum += t.limit * (size_of(t.stretch) - t.limit / t.stiffness);
+  return sum;
 }
 
 Eigen::Matrix3Xd contact_forces(const Contact& contact, const BodyState& state) {

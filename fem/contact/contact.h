@@ -9,6 +9,10 @@
 // Both are implicit: forces are those at the end of a step, where the obstacles are then. The tangent is symmetric:
 // it takes the normal force in the limit of friction as it is (its change with depth enters with the next
 // iteration) and leaves out the curvature of the obstacle, which would soften the contact.
+//   Fast points: one that could cross more than a quarter of an obstacle's thickness in the step, going on as it
+//   does, is met by the plane at which it would enter, however far beyond it is at the end, and keeps that entry
+//   (ContactGrip) until it is out again or as deep as the obstacle's nearest side can tell. What is slower never
+//   skips a side, and no law of it changes.
 
 #include <memory>
 #include <vector>
@@ -68,15 +72,40 @@ class ContactStep {
 
  private:
   Touch touch(std::size_t obstacle, std::size_t point, const Eigen::Vector3d& x, const SignedDistance& own) const;
+  const ContactGrip* held(std::size_t obstacle, std::size_t point) const;
+  SignedDistance distance(std::size_t obstacle, std::size_t point, const Eigen::Vector3d& own) const;
+  void find_entries();
+  std::optional<Entry> entry_kept(std::size_t obstacle, std::size_t point, const Eigen::Vector3d& own) const;
+  std::vector<ContactGrip> grips_without_friction() const;
+  void take_entry(std::size_t obstacle, std::size_t point, const Entry& entry);
 
   const Contact* contact_;
   const BodyState* begin_;
   std::vector<ObstaclePose> now_, before_;
-  Eigen::Matrix3Xd begin_points_;
+  double length_ = 0;  // of the step until here [s]
+  Eigen::Matrix3Xd begin_points_, points_;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> entry_of_;  // [obstacle * points + point] its place in entries_ from 1; empty: none
+  std::vector<double> allowed_;          // [obstacle * points + point] depth that does not count [m]; empty: none
   std::vector<Touch> touches_;
   std::vector<double> limits_;  // [obstacle * points + point]
 };
 
+/// How far a body reaches into an obstacle.
+struct Overlap {
+  std::size_t points = 0;
+  double depth = 0;  // of the deepest [m]
+};
+[[nodiscard]] Overlap overlap(const Contact& contact, const BodyState& state, std::uint32_t id);
+/// Lets the points that are in an obstacle now be as deep as they are, less with time until all are out `duration` [s]
+/// from now: they are pushed out no faster than that asks for, instead of by the force of their depth.
+void allow_overlap(const Contact& contact, BodyState& state, std::uint32_t id, double duration);
+
+/// What contact stores in a state as it stands, at depth and in the springs of friction [J].
+[[nodiscard]] double stored_energy(const Contact& contact, const BodyState& state);
+/// What friction takes in a step for good [J]: where the end of a spring slides, its force times the way; where a
+/// point has let go, what its spring stored. As if the step had been taken in one.
+[[nodiscard]] double friction_loss(const Contact& contact, const BodyState& begin, const BodyState& end);
 /// Contact forces [N] with a state as it stands, 3 x control points; zero without contact.
 [[nodiscard]] Eigen::Matrix3Xd contact_forces(const Contact& contact, const BodyState& state);
 /// Force, and moment about the origin, on the body; of one obstacle by its id, or of all (id 0).

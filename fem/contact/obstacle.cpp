@@ -89,4 +89,76 @@ double largest_depth(const Obstacle& obstacle) {
   return 0;
 }
 
+namespace {
+
+/// The normal of an entry: of a box always that of a face.
+Eigen::Vector3d entry_normal(const Obstacle& obstacle, const Eigen::Vector3d& normal) {
+  if (obstacle.shape != ObstacleShape::box) return normal;
+  int most = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(normal[i]) > std::abs(normal[most])) most = i;
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  result[most] = std::copysign(1.0, normal[most]);
+  return result;
+}
+
+double along(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether the obstacle, seen along a direction, covers the point.
+bool covers(const Obstacle& obstacle, const Eigen::Vector3d& direction, const Eigen::Vector3d& own) {
+  if (obstacle.shape == ObstacleShape::plane) return true;
+  if (obstacle.shape == ObstacleShape::box) {
+    for (int i = 0; i < 3; ++i)
+      if (direction[i] == 0 && std::abs(own[i]) > obstacle.size[i]) return false;
+    return true;
+  }
+  // The shadow of the axis, which is a point for a sphere.
+  const Eigen::Vector3d across = own - along(own, direction) * direction;
+  const double half = obstacle.shape == ObstacleShape::capsule ? obstacle.size[1] : 0;
+  const Eigen::Vector3d axis =
+      half * (Eigen::Vector3d::UnitZ() - direction.z() * direction);  // from the middle to one end
+  const double square = along(axis, axis);
+  const double at = square > 0 ? std::clamp(along(across, axis) / square, -1.0, 1.0) : 0;
+  const Eigen::Vector3d offset = across - at * axis;
+  return along(offset, offset) < obstacle.size[0] * obstacle.size[0];
+}
+
+}  // namespace
+
+std::optional<Entry> first_touch(const Obstacle& obstacle, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  constexpr int k_steps = 64;
+  const Eigen::Vector3d way = to - from;
+  const double length = std::sqrt(along(way, way));
+  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  SignedDistance there = signed_distance(obstacle, from);
+  if (there.distance <= 0) {
+    const Eigen::Vector3d normal = entry_normal(obstacle, there.normal);
+    if (along(way, normal) >= 0) return std::nullopt;
+    return Entry{from - there.distance * there.normal, normal};
+  }
+  const double close =
+      1e-9 * (obstacle.shape == ObstacleShape::plane ? length : std::min(length, largest_depth(obstacle)));
+  double gone = 0;
+  for (int step = 0; step < k_steps; ++step) {
+    // The distance from a convex shape is convex along the way: Newton's steps do not go past its first zero.
+    const double slope = along(there.normal, way) / length;
+    if (slope >= 0) return std::nullopt;
+    gone -= there.distance / slope;
+    if (gone > length) return std::nullopt;
+    const Eigen::Vector3d at = from + (gone / length) * way;
+    there = signed_distance(obstacle, at);
+    if (there.distance > close) continue;
+    return Entry{at, entry_normal(obstacle, there.normal)};
+  }
+  return std::nullopt;
+}
+
+SignedDistance signed_distance(const Obstacle& obstacle, const Entry& entry, const Eigen::Vector3d& own) {
+  const double depth = along(entry.at - own, entry.normal);
+  if (depth > 0 && covers(obstacle, entry.normal, own)) return {-depth, entry.normal};
+  return signed_distance(obstacle, own);
+}
+
 }  // namespace argil::fem

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -56,5 +57,20 @@ struct SignedDistance {
 
 /// How deep a point can lie before it is sent out on another side than it came in by [m]; infinite for a plane.
 [[nodiscard]] double largest_depth(const Obstacle& obstacle);
+
+/// Where a straight way enters an obstacle, and the outward normal there; of an edge or corner of a box that of one
+/// of its faces.
+struct Entry {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+};
+/// Of a way in the obstacle's own frame: its first point of contact, or, from a beginning within and further in, the
+/// surface point nearest to that. Nothing where it misses or leads out. By Newton's method on the distance, which is
+/// convex: to 1e-9 of the size; at most 64 steps, after which a way that grazes counts as a miss.
+[[nodiscard]] std::optional<Entry> first_touch(const Obstacle& obstacle, const Eigen::Vector3d& from,
+                                               const Eigen::Vector3d& to);
+/// As signed_distance(), of a point that came in by `entry`: while it is beneath the entry's plane and somewhere
+/// along its normal the obstacle lies or lay above it, it is that deep under the plane, be it out on the other side.
+[[nodiscard]] SignedDistance signed_distance(const Obstacle& obstacle, const Entry& entry,
+                                             const Eigen::Vector3d& own);
 
 }  // namespace argil::fem

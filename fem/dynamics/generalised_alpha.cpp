@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "fem/dynamics/integrator_body.h"
 #include "fem/dynamics/led_points.h"
 #include "subdiv/error.h"
@@ -71,6 +73,8 @@ StepReport Integrator::Impl::generalised_alpha_step(const Loads& loads, BodyStat
   set_led_columns(loads.led, led.positions, next_positions);
   set_led_columns(loads.led, led.velocities, next_velocities);
   std::vector<ContactGrip> grips = grips_at(contact, q);
+  // They are of the time of balance; what is still allowed is that of the end.
+  for (ContactGrip& grip : grips) grip.allowed = std::max(0.0, grip.allowed - grip.allowed_rate * alpha_f * h);
   advance(state, std::move(next_positions), std::move(next_velocities), h);
   state.grips = std::move(grips);
   state.accelerations = next_accelerations;

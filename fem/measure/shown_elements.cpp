@@ -97,7 +97,17 @@ bool ShownElements::take_flow(const PlasticFlow& flow) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (std::size_t i = 0; i < flow.inverse[b].size(); ++i)
       flowed_blocks_[b].inverse_rest_jacobians[i] = blocks_[b].inverse_rest_jacobians[i] * flow.inverse[b][i];
+  plastic_strains_.clear();
+  for (const std::vector<double>& strains : fem::plastic_strain(flow))
+    plastic_strains_.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(strains.data(), static_cast<Eigen::Index>(strains.size())));
   return true;
+}
+
+Eigen::VectorXd ShownElements::plastic_strain() const {
+  if (plastic_strains_.empty()) return Eigen::VectorXd::Zero(vertex_count_);
+  const std::size_t nodes = static_cast<std::size_t>(vertex_count_) + apex_cells_.size();
+  return recover_at_nodes(blocks_, plastic_strains_, nodes).head(vertex_count_);
 }
 
 Eigen::VectorXd ShownElements::recovered(const std::vector<ElementBlock>& blocks, const Eigen::Matrix3Xd& vertices,

@@ -33,6 +33,8 @@ class ShownElements {
                                                  StressLaw law = nullptr) const;
   /// Minus the mean of the principal stresses.
   [[nodiscard]] Eigen::VectorXd pressure(const Eigen::Matrix3Xd& vertices, StressLaw law = nullptr) const;
+  /// Equivalent strain of the flow that take_flow() took: √(2/3) |log of F_p's stretch|; 0 without.
+  [[nodiscard]] Eigen::VectorXd plastic_strain() const;
   /// det F − 1: the change of volume, by its share (papers/004, Fig. 13: "volumetric distortions").
   [[nodiscard]] Eigen::VectorXd distortion(const Eigen::Matrix3Xd& vertices) const;
 
@@ -48,6 +50,7 @@ class ShownElements {
 
   std::vector<ElementBlock> blocks_;
   std::vector<ElementBlock> flowed_blocks_;                // with the rest Jacobians of the flow; empty without
+  std::vector<Eigen::VectorXd> plastic_strains_;           // of the points of each block; empty without
   std::vector<std::vector<subdiv::VertexId>> apex_cells_;  // vertices whose mean an apex is
   Eigen::Index vertex_count_ = 0;
 };

@@ -134,7 +134,8 @@ void check_model(const ModelChoice& choice) {
 }
 
 std::unique_ptr<ForceModel> make_model(const ModelChoice& choice, std::span<const ElementBlock> blocks,
-                                       const Eigen::Matrix3Xd& rest_nodes) {
+                                       const Eigen::Matrix3Xd& rest_nodes,
+                                       std::shared_ptr<const double> prestress_share) {
   check_model(choice);
   const ModelKind& kind = model_by_name(choice.name);
   bool prestressed = false;
@@ -144,7 +145,8 @@ std::unique_ptr<ForceModel> make_model(const ModelChoice& choice, std::span<cons
                 fmt::format("the model {} takes no initial stress; set the prestress to 0 or choose another model",
                             kind.name));
   std::unique_ptr<ForceModel> model = kind.make(blocks, rest_nodes, choice.formulation);
-  return prestressed ? make_prestressed(std::move(model), blocks, rest_nodes) : std::move(model);
+  if (!prestressed) return model;
+  return make_prestressed(std::move(model), blocks, rest_nodes, {}, std::move(prestress_share));
 }
 
 }  // namespace argil::fem

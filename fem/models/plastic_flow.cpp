@@ -167,14 +167,16 @@ void check_flow(const ModelChoice& choice) {
 }
 
 std::unique_ptr<ForceModel> make_flowed_model(const ModelChoice& choice, std::span<const ElementBlock> blocks,
-                                              const Eigen::Matrix3Xd& rest_nodes, const PlasticFlow& state) {
+                                              const Eigen::Matrix3Xd& rest_nodes, const PlasticFlow& state,
+                                              std::shared_ptr<const double> prestress_share) {
   check_model(choice);
   check_flow(choice);
   assert(state.empty() || fits(state, blocks));
-  if (state.empty()) return make_model(choice, blocks, rest_nodes);
+  if (state.empty()) return make_model(choice, blocks, rest_nodes, std::move(prestress_share));
   auto model = std::make_unique<Flowed>(model_by_name(choice.name), choice.formulation, blocks, rest_nodes, state);
   for (const ElementBlock& block : blocks)
-    if (!block.prestress.empty()) return make_prestressed(std::move(model), blocks, rest_nodes);
+    if (!block.prestress.empty())
+      return make_prestressed(std::move(model), blocks, rest_nodes, {}, std::move(prestress_share));
   return model;
 }
 

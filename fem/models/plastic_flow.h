@@ -53,7 +53,8 @@ void check_flow(const ModelChoice& choice);
 [[nodiscard]] std::unique_ptr<ForceModel> make_flowed_model(const ModelChoice& choice,
                                                             std::span<const ElementBlock> blocks,
                                                             const Eigen::Matrix3Xd& rest_nodes,
-                                                            const PlasticFlow& state);
+                                                            const PlasticFlow& state,
+                                                            std::shared_ptr<const double> prestress_share = nullptr);
 
 /// Accumulated √(2/3) |log of F_p's stretch| of every point, block by block: how far it has flowed from where it
 /// began, not how long its way was.

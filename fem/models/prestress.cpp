@@ -10,22 +10,25 @@ namespace argil::fem {
 namespace {
 
 struct Prestress {
-  Prestress(std::span<const ElementBlock> b, std::size_t node_count, InitialStresses s)
-      : blocks(b), sums(b, node_count), given(std::move(s)) {
+  Prestress(std::span<const ElementBlock> b, std::size_t node_count, InitialStresses s,
+            std::shared_ptr<const double> acting)
+      : blocks(b), sums(b, node_count), given(std::move(s)), share(std::move(acting)) {
     given.resize(b.size());
   }
 
   /// Volume times stress at a point.
   Eigen::Matrix3d at(std::size_t b, std::size_t point) const {
     const ElementBlock& block = blocks[b];
-    if (!given[b].empty()) return block.volumes[point] * given[b][point];
+    const double volume = share ? *share * block.volumes[point] : block.volumes[point];
+    if (!given[b].empty()) return volume * given[b][point];
     if (block.prestress.empty()) return Eigen::Matrix3d::Zero();
-    return block.volumes[point] * block.prestress[point] * Eigen::Matrix3d::Identity();
+    return volume * block.prestress[point] * Eigen::Matrix3d::Identity();
   }
 
   std::span<const ElementBlock> blocks;
   NodeSums sums;
   InitialStresses given;
+  std::shared_ptr<const double> share;  // null: 1
 };
 
 /// ∂/∂X of the nodes' shape functions at a point.
@@ -153,9 +156,9 @@ class PrestressedTangent final : public Tangent {
 class Prestressed final : public ForceModel {
  public:
   Prestressed(std::unique_ptr<ForceModel> model, std::span<const ElementBlock> blocks, std::size_t node_count,
-              InitialStresses stresses)
+              InitialStresses stresses, std::shared_ptr<const double> share)
       : model_(std::move(model)),
-        prestress_(std::make_shared<Prestress>(blocks, node_count, std::move(stresses))) {}
+        prestress_(std::make_shared<Prestress>(blocks, node_count, std::move(stresses), std::move(share))) {}
 
   std::string_view name() const override { return model_->name(); }
   Promises promises() const override {
@@ -208,9 +211,10 @@ class Prestressed final : public ForceModel {
 
 std::unique_ptr<ForceModel> make_prestressed(std::unique_ptr<ForceModel> model,
                                              std::span<const ElementBlock> blocks,
-                                             const Eigen::Matrix3Xd& rest_nodes, InitialStresses stresses) {
+                                             const Eigen::Matrix3Xd& rest_nodes, InitialStresses stresses,
+                                             std::shared_ptr<const double> share) {
   return std::make_unique<Prestressed>(std::move(model), blocks, static_cast<std::size_t>(rest_nodes.cols()),
-                                       std::move(stresses));
+                                       std::move(stresses), std::move(share));
 }
 
 }  // namespace argil::fem

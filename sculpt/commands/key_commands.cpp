@@ -17,6 +17,14 @@
 
 namespace argil::sculpt {
 
+std::string no_such_pressure(const std::vector<AppliedPressure>& pressures, const std::string& name) {
+  std::vector<std::string> names;
+  for (const AppliedPressure& pressure : pressures)
+    if (!pressure.name.empty()) names.push_back(pressure.name);
+  return fmt::format("there is no pressure named '{}'{}; name one where it is made: `pressure 500 as {}`", name,
+                     near_names_hint(name, names), io::quote(name));
+}
+
 std::string no_such_force(const std::vector<AppliedForce>& forces, const std::string& name) {
   std::vector<std::string> names;
   for (const AppliedForce& force : forces)
@@ -59,10 +67,24 @@ NewKeys new_keys(const Arguments& arguments, const std::optional<Eigen::VectorXd
       result.keys.emplace_back(numbers[i], key);
     }
   }
+  if (arguments.has("course")) {
+    if (value || arguments.has("at"))
+      throw Error(ErrorCode::bad_input, "a course has its own times and values; leave out the others");
+    const auto& numbers = arguments.numbers("course");
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+      if (numbers[i] < 0)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("time begins at 0 s, and the course has a key at {:g} s", numbers[i]));
+      result.keys.emplace_back(numbers[i], Eigen::VectorXd::Constant(1, numbers[i + 1]));
+    }
+  }
   if (result.keys.empty() && !result.interpolation)
     throw Error(ErrorCode::bad_input,
-                "a key wants a value, as in `key gravity 0 0 -9.81 at 0.5`, an interpolation, or "
-                "`remove`");
+                components == 1
+                    ? "a key wants a value, as in `key pressure bag amount 500 at 0.5`, an interpolation, or "
+                      "`remove`"
+                    : "a key wants a value, as in `key gravity 0 0 -9.81 at 0.5`, an interpolation, or "
+                      "`remove`");
   if (result.keys.empty() && arguments.has("at"))
     throw Error(ErrorCode::bad_input, "`at` is the time of a value, and there is none");
   return result;
@@ -84,7 +106,8 @@ void add_keys(Track& track, const NewKeys& given, double now, const Eigen::Vecto
 
 /// Takes away the key at a time, or all.
 void remove_keys(Track& track, const Arguments& arguments, const std::string& what) {
-  for (const char* other : {"value", "path", "move", "rotate", "axis", "about", "interpolation"})
+  for (const char* other :
+       {"value", "amount", "to", "path", "course", "move", "rotate", "axis", "about", "interpolation"})
     if (arguments.has(other))
       throw Error(ErrorCode::bad_input, fmt::format("`remove` takes keys away; leave out {}", other));
   if (track.empty()) throw Error(ErrorCode::not_found, fmt::format("{} has no keys", what));
@@ -98,7 +121,8 @@ void remove_keys(Track& track, const Arguments& arguments, const std::string& wh
 
 /// Takes the key at a time to another, with its value.
 void move_key(Track& track, const Arguments& arguments, const std::string& what) {
-  for (const char* other : {"value", "path", "move", "rotate", "axis", "about", "interpolation", "remove"})
+  for (const char* other :
+       {"value", "amount", "path", "course", "move", "rotate", "axis", "about", "interpolation", "remove"})
     if (arguments.has(other))
       throw Error(ErrorCode::bad_input, fmt::format("`to` moves a key as it is; leave out {}", other));
   if (!arguments.has("at"))
@@ -126,6 +150,7 @@ void refuse(const Arguments& arguments, std::initializer_list<const char*> names
 void key_vector(Session& session, const Arguments& arguments, Eigen::Vector3d& constant, Track& track,
                 const std::string& what) {
   refuse(arguments, {"move", "rotate", "axis", "about"}, "pins move and turn, and " + what + " has a value");
+  refuse(arguments, {"amount", "course"}, what + " has three components: `0 0 -9.81`, or a `path`");
   const double now = session.document().state().motion->time;
   const Eigen::VectorXd present = track.empty() ? Eigen::VectorXd(constant) : value_at(track, now);
   if (arguments.has("remove")) {
@@ -137,6 +162,56 @@ void key_vector(Session& session, const Arguments& arguments, Eigen::Vector3d& c
   std::optional<Eigen::VectorXd> value;
   if (arguments.has("value")) value = arguments.vector("value");
   add_keys(track, new_keys(arguments, value, 3, now), now, present, what, session);
+}
+
+/// The same of a number.
+void key_number(Session& session, const Arguments& arguments, double& constant, Track& track,
+                const std::string& what) {
+  refuse(arguments, {"move", "rotate", "axis", "about"}, "pins move and turn, and " + what + " has a value");
+  refuse(arguments, {"value", "path"}, what + " is one number: `amount NUMBER at TIME`, or `course T NUMBER …`");
+  const double now = session.document().state().motion->time;
+  const Eigen::VectorXd present = track.empty() ? Eigen::VectorXd::Constant(1, constant) : value_at(track, now);
+  if (arguments.has("remove")) {
+    remove_keys(track, arguments, what);
+    if (track.empty()) constant = present[0];
+    return;
+  }
+  if (arguments.has("to")) return move_key(track, arguments, what);
+  std::optional<Eigen::VectorXd> value;
+  if (arguments.has("amount")) value = Eigen::VectorXd::Constant(1, arguments.number("amount"));
+  add_keys(track, new_keys(arguments, value, 1, now), now, present, what, session);
+}
+
+void key_pressure(Session& session, const Arguments& arguments, State& next) {
+  if (!arguments.has("name"))
+    throw Error(ErrorCode::bad_input,
+                "which pressure? As in `key pressure bag amount 500 at 1`, of `pressure 0 as bag`");
+  const std::string& name = arguments.word("name");
+  auto loads = std::make_shared<AppliedLoads>(*next.loads);
+  const auto found = std::find_if(loads->pressures.begin(), loads->pressures.end(),
+                                  [&](const AppliedPressure& pressure) { return pressure.name == name; });
+  if (found == loads->pressures.end()) throw Error(ErrorCode::not_found, no_such_pressure(loads->pressures, name));
+  key_number(session, arguments, found->pressure, found->track, fmt::format("the pressure '{}'", name));
+  next.loads = loads;
+}
+
+// There is no share without keys: to take the last key away leaves the fields with what acts now.
+void key_prestress(Session& session, const Arguments& arguments, State& next) {
+  refuse(arguments, {"name"}, "prestress is painted, and has no name");
+  auto loads = std::make_shared<AppliedLoads>(*next.loads);
+  double share = 1;
+  key_number(session, arguments, share, loads->prestress_track, "the share of prestress");
+  if (loads->prestress_track.empty() && share != 1) {
+    auto fields = std::make_shared<Fields>(*next.fields);
+    (*fields)[FieldName::prestress] *= share;
+    next.fields = fields;
+    session.print(fmt::format("the field prestress is {:g} of what it was: what acts now", share));
+  }
+  if (arguments.has("amount") || arguments.has("course"))
+    if ((*next.fields)[FieldName::prestress].isZero(0))
+      session.print(
+          "no prestress is painted yet: `set prestress 5000`, or the tool paint, says where there is some");
+  next.loads = loads;
 }
 
 void key_gravity(Session& session, const Arguments& arguments, State& next) {
@@ -231,7 +306,7 @@ void key_pin(Session& session, const Arguments& arguments, State& next) {
   if (!arguments.has("name"))
     throw Error(ErrorCode::bad_input,
                 "which pins? Name a set of what is pinned, as in `key pin foot move 0 0 0.1 at 2`");
-  refuse(arguments, {"value"}, "a pin moves: `move X Y Z`, `rotate ANGLE axis X Y Z`");
+  refuse(arguments, {"value", "amount", "course"}, "a pin moves: `move X Y Z`, `rotate ANGLE axis X Y Z`");
   const std::string& name = arguments.word("name");
   const double now = next.motion->time;
   auto pins = std::make_shared<Pins>(*next.pins);
@@ -281,7 +356,7 @@ void key_pin(Session& session, const Arguments& arguments, State& next) {
 void key_obstacle(Session& session, const Arguments& arguments, State& next) {
   if (!arguments.has("name"))
     throw Error(ErrorCode::bad_input, "which obstacle? As in `key obstacle floor move 0 0 0.1 at 2`");
-  refuse(arguments, {"value"}, "an obstacle moves: `move X Y Z`, `rotate ANGLE axis X Y Z`");
+  refuse(arguments, {"value", "amount", "course"}, "an obstacle moves: `move X Y Z`, `rotate ANGLE axis X Y Z`");
   const std::string& name = arguments.word("name");
   const NamedObstacle* known = find_obstacle(next, name);
   if (!known) {
@@ -325,6 +400,10 @@ void key(Session& session, const Arguments& arguments) {
     key_gravity(session, arguments, next);
   else if (what == "force")
     key_force(session, arguments, next);
+  else if (what == "pressure")
+    key_pressure(session, arguments, next);
+  else if (what == "prestress")
+    key_prestress(session, arguments, next);
   else if (what == "pin")
     key_pin(session, arguments, next);
   else
@@ -343,6 +422,8 @@ void list_track(const Session& session, const std::string& what, const Track& tr
       if (turn.norm() > 0)
         text += fmt::format(" rotate {:g} axis {:g} {:g} {:g}", turn.norm() / k_degree, turn.x() / turn.norm(),
                             turn.y() / turn.norm(), turn.z() / turn.norm());
+    } else if (value.size() == 1) {
+      text += fmt::format("{:g}", value[0]);
     } else {
       text += fmt::format("{:g} {:g} {:g}", value[0], value[1], value[2]);
     }
@@ -362,6 +443,9 @@ void list_keys(Session& session, const Arguments&) {
   list("gravity [m/s^2]", state.loads->gravity_track);
   for (const AppliedForce& force : state.loads->forces)
     list(fmt::format("force {} [N]", io::quote(force.name)), force.track);
+  for (const AppliedPressure& pressure : state.loads->pressures)
+    list(fmt::format("pressure {} [Pa]", io::quote(pressure.name)), pressure.track);
+  list("prestress, the share that acts", state.loads->prestress_track);
   for (const PinMotion& motion : state.pins->motions)
     list(fmt::format("pin {} [m, degrees], {} about {:g} {:g} {:g}", io::quote(motion.name),
                      count_of(motion.members.ids.size(), motion.members.type), motion.pivot.x(), motion.pivot.y(),
@@ -385,25 +469,30 @@ std::vector<Command> key_commands() {
   value.positional = true;
   return {
       {.name = "key",
-       .summary = "Says what gravity, a force, a pin or an obstacle is at a time; in between it goes from key to "
-                  "key, before the "
-                  "first and after the last it stays. Pins move as one rigid body by the differences of their "
-                  "keys, from where "
-                  "they stand, obstacles from where they were put. A first key that lies ahead makes another, of "
-                  "what is now.",
+       .summary =
+           "Says what gravity, a force, a pressure, the share of prestress that acts, a pin or an obstacle is "
+           "at a time; in between it goes from key to key, before the "
+           "first and after the last it stays. Pins move as one rigid body by the differences of their "
+           "keys, from where "
+           "they stand, obstacles from where they were put. A first key that lies ahead makes another, of "
+           "what is now.",
        .parameters =
            {{.name = "what",
              .type = ArgumentType::word,
              .help = "what is keyed",
              .positional = true,
              .required = true,
-             .choices = {"gravity", "force", "pin", "obstacle"}},
+             .choices = {"gravity", "force", "pressure", "prestress", "pin", "obstacle"}},
             {.name = "name",
              .type = ArgumentType::text,
-             .help = "of the force (`force … as NAME`), of a set of pinned elements (`select … as NAME`), or of "
-                     "the obstacle",
+             .help = "of the force or pressure (`force … as NAME`), of a set of pinned elements (`select … as "
+                     "NAME`), or of the obstacle",
              .positional = true},
             value,
+            {.name = "amount",
+             .help = "of a pressure [Pa], or the share of the field prestress that acts (1: all) at that time",
+             .low = -1e12,
+             .high = 1e12},
             {.name = "at",
              .help = "the time; else now. A key that is there already is replaced",
              .unit = "s",
@@ -434,6 +523,14 @@ std::vector<Command> key_commands() {
              .high = 1e12,
              .list = true,
              .shown = "T X Y Z …"},
+            {.name = "course",
+             .help = "several keys of a pressure or of prestress at once: the time of each and its value",
+             .unit = "s Pa",
+             .count = 2,
+             .low = -1e12,
+             .high = 1e12,
+             .list = true,
+             .shown = "T NUMBER …"},
             {.name = "interpolation",
              .type = ArgumentType::word,
              .help = "between keys: smooth (at first), with level ends and turning points; linear; or step",
@@ -446,7 +543,7 @@ std::vector<Command> key_commands() {
                   "select vertices as end where x > 0.39"},
        .run = key},
       {.name = "keys",
-       .summary = "Lists the keys of gravity, forces, pins and obstacles over time.",
+       .summary = "Lists the keys of gravity, forces, pressures, prestress, pins and obstacles over time.",
        .parameters = {},
        .example = "keys",
        .before = {"new box 2 2 2", "key gravity path 0 0 0 0 1 0 0 -9.81 interpolation linear"},

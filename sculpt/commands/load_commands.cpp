@@ -149,6 +149,49 @@ void apply_force(Session& session, const Arguments& arguments) {
   session.change(std::move(next));
 }
 
+void apply_pressure(Session& session, const Arguments& arguments) {
+  require_solid(session);
+  State next = session.document().state();
+  auto loads = std::make_shared<AppliedLoads>(*next.loads);
+  auto& pressures = loads->pressures;
+  const std::string name = arguments.word("as", "");
+  if (arguments.has("clear")) {
+    for (const char* other : {"pressure", "where"})
+      if (arguments.has(other))
+        throw Error(ErrorCode::bad_input,
+                    "`pressure clear` takes pressures away; give a new one on a line of its own");
+    if (name.empty())
+      pressures.clear();
+    else if (std::erase_if(pressures, [&](const AppliedPressure& pressure) { return pressure.name == name; }) == 0)
+      throw Error(ErrorCode::not_found, no_such_pressure(pressures, name));
+  } else {
+    if (!arguments.has("pressure"))
+      throw Error(ErrorCode::bad_input, "pressure wants its size, as in `pressure 500 where z > 0.9`, or `clear`");
+    AppliedPressure applied;
+    applied.pressure = arguments.number("pressure");
+    applied.name = name;
+    constexpr ElementType type = ElementType::faces;
+    applied.faces = acted_on(session, arguments, std::span(&type, 1)).ids;
+    for (const std::uint32_t f : applied.faces)
+      if (!session.document().solid().is_boundary(subdiv::FaceId{f}))
+        throw Error(
+            ErrorCode::bad_input,
+            fmt::format("face {} is inside the solid; pressure acts on the boundary. For pressure from within "
+                        "matter set the field `prestress`",
+                        f));
+    session.print(fmt::format("{} under {:g} Pa", count_of(applied.faces.size(), type), applied.pressure));
+    const auto same = std::find_if(pressures.begin(), pressures.end(), [&](const AppliedPressure& pressure) {
+      return !name.empty() && pressure.name == name;
+    });
+    if (same != pressures.end())
+      *same = std::move(applied);
+    else
+      pressures.push_back(std::move(applied));
+  }
+  next.loads = loads;
+  session.change(std::move(next));
+}
+
 }  // namespace
 
 std::vector<Command> load_commands() {
@@ -202,6 +245,20 @@ std::vector<Command> load_commands() {
        .example = "force 0 0 -10 where z > 0.09",
        .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
        .run = apply_force},
+      {.name = "pressure",
+       .summary =
+           "A pressure on boundary faces that follows them: along the normal and on the area that they have at the "
+           "moment. It stays until cleared. Positive pushes against the face, negative draws it outwards; on the "
+           "walls "
+           "of a hollow, positive inflates. One with a name can be keyed over time; given again it is replaced.",
+       .parameters =
+           {{.name = "pressure", .help = "how much", .unit = "Pa", .positional = true, .low = -1e12, .high = 1e12},
+            {.name = "as", .type = ArgumentType::text, .help = "its name, for `key pressure`"},
+            {.name = "clear", .help = "take all pressures away, or with `as` that one", .flag = true},
+            {.name = "where", .type = ArgumentType::expression, .help = "the faces; else those selected"}},
+       .example = "pressure 500 as wind where z > 0.09",
+       .before = {"new box 4 4 1 size 0.6 0.6 0.1"},
+       .run = apply_pressure},
   };
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sculpt/commands/commands.h"
@@ -84,6 +85,39 @@ fem::Obstacle read_shape(const std::string& shape, const Arguments& arguments) {
   return body;
 }
 
+// Of the body's longest side: a depth that contact itself does not come to, but where an obstacle was put over it.
+constexpr double k_overlap = 0.01;
+constexpr double k_push_out = 0.5;  // [s] in which it then leaves, as far as its own longest side
+
+/// Softens what an obstacle does that stands in the body from the beginning, and says so.
+void meet_overlap(Session& session, State& next, const NamedObstacle& obstacle) {
+  const Document& document = session.document();
+  fem::Contact contact;
+  try {
+    contact.surface = document.contact_surface();
+  } catch (const Error&) {
+    return;  // a body that cannot be simulated yet, which the first step will say
+  }
+  const double time = next.motion->time;
+  contact.obstacles = moving_obstacles(next, time);
+  const fem::Overlap overlap = fem::overlap(contact, *next.motion, obstacle.body.id);
+  const Eigen::Matrix3Xd& rest = document.rest();
+  const double size = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).maxCoeff();
+  if (!(overlap.depth > k_overlap * size)) return;
+  const double duration = k_push_out * std::max(1.0, overlap.depth / size);
+  auto motion = std::make_shared<fem::BodyState>(*next.motion);
+  fem::allow_overlap(contact, *motion, obstacle.body.id, duration);
+  next.motion = motion;
+  session.print(fmt::format(
+      "note: the body is in {} already, {} of its {} contact points, the deepest by {:.4g} m; the "
+      "obstacle pushes it "
+      "out over the next {:.3g} s, at {:.4g} m/s and not by the force of that depth. `undo` and place it "
+      "elsewhere if "
+      "that is not meant",
+      obstacle.name, overlap.points, contact.surface->point_count(), overlap.depth, duration,
+      overlap.depth / duration));
+}
+
 void set_obstacle(Session& session, const Arguments& arguments) {
   require_solid(session);
   const std::string& name = arguments.word("name");
@@ -115,6 +149,7 @@ void set_obstacle(Session& session, const Arguments& arguments) {
   obstacle.body.stiffness = arguments.number("stiffness", 0);
   session.print(description(obstacle) + (before ? "; in place of the one before" : ""));
   put_obstacle(next, std::move(obstacle));
+  meet_overlap(session, next, *find_obstacle(next, name));
   session.change(std::move(next));
 }
 
@@ -151,8 +186,10 @@ std::vector<Command> obstacle_commands() {
       {.name = "obstacle",
        .summary =
            "A rigid obstacle that the boundary cannot enter, with Coulomb friction. A point at depth d is "
-           "pushed out by the pressure stiffness · d; nothing acts before it touches. One of the same name is "
-           "replaced; `remove` takes it away.",
+           "pushed out by the pressure stiffness · d; nothing acts before it touches. One that is put over the "
+           "body "
+           "pushes it out over half a second, and says so. One of the same name is replaced; `remove` takes it "
+           "away.",
        .parameters =
            {{.name = "name", .type = ArgumentType::word, .help = "any word", .positional = true, .required = true},
             {.name = "shape",

@@ -58,6 +58,18 @@ void step(Session& session, const Arguments& arguments) {
   session.change(session.document().state());
 }
 
+// A pressure that follows the surface is taken where that stands, until it stays there to this share of the size.
+constexpr double k_still = 1e-9;
+constexpr int k_pressure_rounds = 60;
+
+/// The longest side of the box about some points, and the largest way between two places of a point [m].
+double largest_way(const Eigen::Matrix3Xd& points) {
+  return points.cols() == 0 ? 0 : (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+}
+double largest_way(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  return from.cols() == 0 ? 0 : (to - from).cwiseAbs().maxCoeff();
+}
+
 void solve(Session& session, const Arguments&) {
   require_simulation(session);
   Document& document = session.document();
@@ -67,10 +79,21 @@ void solve(Session& session, const Arguments&) {
   options.linear_tolerance = 1e-9;
   options.newton_tolerance = 1e-8;
   options.progress = session.progress_of("finding the equilibrium");
-  fem::Loads loads = document.loads();
-  loads.contact = contact_at(document, motion->time);
-  const fem::StepReport report =
-      document.integrator().solve_static(loads, *motion, options, session.options().clock);
+  const bool follows = !next.loads->pressures.empty();
+  fem::StepReport report;
+  for (int round = 1;; ++round) {
+    fem::Loads loads = document.loads_at(motion->time, motion->positions);
+    loads.contact = contact_at(document, motion->time);
+    const Eigen::Matrix3Xd before = motion->positions;
+    fem::append(report, document.integrator().solve_static(loads, *motion, options, session.options().clock));
+    if (!follows || largest_way(before, motion->positions) <= k_still * largest_way(document.rest())) break;
+    if (round == k_pressure_rounds)
+      throw Error(
+          ErrorCode::not_converged,
+          fmt::format("the surface under pressure has not come to rest in {} rounds of equilibrium; lower the "
+                      "pressure, pin the body, or step in time with damping",
+                      round));
+  }
   session.print(fmt::format("equilibrium in {} Newton and {} linear iterations", report.newton_iterations,
                             report.linear_iterations));
   next.motion = motion;

@@ -217,6 +217,8 @@ const std::vector<BadLine> k_bad_lines = {
     {"cut plane 0 0 0 where z > 0", ErrorCode::bad_input, "zero"},
     {"key gravity at 1", ErrorCode::bad_input, "wants a value"},
     {"key force nothing 0 0 1", ErrorCode::not_found, "no force named"},
+    {"key pressure nothing amount 5", ErrorCode::not_found, "no pressure named"},
+    {"pressure 5 clear", ErrorCode::bad_input, "on a line of its own"},
     {"keys now", ErrorCode::bad_input, "not one of its arguments", "input:1:6"},
     {"record film.mov", ErrorCode::unsupported, "ends in .pvd"},
     {"mask clear value 0.5", ErrorCode::bad_input, "leave it out"},

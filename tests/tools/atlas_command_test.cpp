@@ -66,6 +66,9 @@ TEST_F(AtlasCommand, SaysWhatIsWrong) {
   EXPECT_THAT(message({"atlas", "none.argil"}), HasSubstr("none.argil"));
   EXPECT_THAT(message({"atlas", "wrong.argil"}), HasSubstr("wrong.argil:2"));
   EXPECT_THAT(message({"atlas", "empty.argil"}), HasSubstr("without a solid"));
+  folder_.write("floor.argil", "argil 1\nnew box 1 1 1\nlevels 1\nobstacle floor plane at 0 0 -1\n");
+  EXPECT_THAT(message({"atlas", "floor.argil"}),
+              testing::AllOf(HasSubstr("floor.argil"), HasSubstr("obstacle floor"), HasSubstr("remove")));
 }
 
 }  // namespace

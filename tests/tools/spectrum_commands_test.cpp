@@ -46,6 +46,18 @@ TEST_F(SpectrumCommands, ModesOfASessionAreThoseOfItsEndAndNothingElseIsWritten)
                 1e-6);
 }
 
+TEST_F(SpectrumCommands, ModesSayWhatTheyLeaveOut) {
+  folder_.write("bar.argil", k_bar);
+  const std::vector<std::string> line{"modes", "bar.argil", "--count", "1"};
+  EXPECT_THAT(run_argil(line, folder_.path()).out, testing::Not(HasSubstr("without")));
+  std::vector<std::string> more = line;
+  for (const char* with : {"obstacle floor plane at 0 0 -1", "pressure 5 as wind where x > 0.9"})
+    more.insert(more.end(), {"--with", with});
+  EXPECT_THAT(run_argil(more, folder_.path()).out, HasSubstr("without obstacle floor, pressure wind"));
+  more.emplace_back("--json");
+  EXPECT_EQ(answer(more)["left_out"], (std::vector<std::string>{"obstacle floor", "pressure wind"}));
+}
+
 TEST_F(SpectrumCommands, ShapesHaveOneFieldAModeAndKeepWhatIsPinned) {
   folder_.write("box.mesh", cube_grid(2, 2, 2, 0.5));
   const Finished finished = argil(

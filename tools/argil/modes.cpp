@@ -7,6 +7,7 @@
 
 #include "fem/spectrum/largest_frequency.h"
 #include "io/volume_mesh.h"
+#include "sculpt/obstacles.h"
 #include "subdiv/build.h"
 #include "subdiv/error.h"
 #include "tools/argil/program.h"
@@ -65,6 +66,8 @@ int modes(const ModesArguments& arguments) {
   json["space"] = document.state().space == fem::Space::cubic ? "cubic" : "default";
   json["level"] = document.state().level;
   json["linearised_at"] = at_rest ? "rest" : "present";
+  const std::vector<std::string> left_out = sculpt::left_out_of_linearisation(document.state());
+  if (!left_out.empty()) json["left_out"] = left_out;
   json["unknowns"] = pencil.mass.rows();
   json["pinned_control_points"] = document.state().pins->control_points.size();
   json["modes"] = nlohmann::ordered_json::array();
@@ -83,6 +86,9 @@ int modes(const ModesArguments& arguments) {
              json["model"].get<std::string>(), json["space"].get<std::string>(), document.state().level,
              pencil.mass.rows(), document.state().pins->control_points.size(),
              at_rest ? "at rest" : "at the present state");
+  if (!left_out.empty())
+    fmt::print("without {}: contact and pressure that follows add a stiffness which these modes do not have\n",
+               fmt::join(left_out, ", "));
   fmt::print("mode  frequency [Hz]\n");
   bool unstable = false;
   for (std::size_t m = 0; m < found.squares.size(); ++m) {

@@ -12,6 +12,7 @@
 #include "fem/spectrum/modes.h"
 #include "fem/spectrum/start_vectors.h"
 #include "sculpt/hash.h"
+#include "sculpt/obstacles.h"
 #include "sculpt/session.h"
 #include "subdiv/error.h"
 
@@ -124,6 +125,13 @@ struct Body::Parts {
       if (session->document().empty())
         throw Error(ErrorCode::bad_input, "the session ends without a solid; it wants `new` or `open`",
                     scene.session_file.string());
+      if (const auto left_out = sculpt::left_out_of_linearisation(session->document().state()); !left_out.empty())
+        throw Error(
+            ErrorCode::unsupported,
+            fmt::format("the atlas judges methods by the body alone, and the session has {}; map a copy of the "
+                        "session that ends with `obstacle NAME remove` and `pressure clear`",
+                        fmt::join(left_out, ", ")),
+            scene.session_file.string());
       if (scene.young_modulus != 1)
         session->run_line(fmt::format("paint young_modulus scale {}", scene.young_modulus));
     } else {

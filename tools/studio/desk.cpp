@@ -176,6 +176,7 @@ bool Desk::perform(Action action) {
         const sculpt::AppliedLoads& loads = *bench.session().document().state().loads;
         std::vector<std::string> lines;
         if (!loads.forces.empty()) lines.emplace_back("force clear");
+        if (!loads.pressures.empty()) lines.emplace_back("pressure clear");
         if (!loads.gravity.isZero() || !loads.gravity_track.empty()) lines.emplace_back("gravity 0 0 0");
         if (!lines.empty()) bench.run_together(lines);
         bench.say(MessageKind::warning, "all force is off");

@@ -22,6 +22,7 @@ std::string value_words(const Eigen::VectorXd& value, bool exact) {
     return exact ? io::format_number(number) : fmt::format("{:.3g}", number);
   };
   const auto words = [&](const Eigen::Vector3d& v) { return word(v.x()) + ' ' + word(v.y()) + ' ' + word(v.z()); };
+  if (value.size() == 1) return "amount " + word(value[0]);
   if (value.size() == 3) return words(value);
   const Eigen::Vector3d turn = value.tail<3>();
   const double angle = std::sqrt(turn.x() * turn.x() + turn.y() * turn.y() + turn.z() * turn.z());
@@ -51,6 +52,9 @@ std::vector<Keyed> keyed(const sculpt::State& state) {
   };
   add("gravity", "m/s²", state.loads->gravity_track);
   for (const sculpt::AppliedForce& force : state.loads->forces) add(named("force", force.name), "N", force.track);
+  for (const sculpt::AppliedPressure& pressure : state.loads->pressures)
+    add(named("pressure", pressure.name), "Pa", pressure.track);
+  add("prestress", "of the field", state.loads->prestress_track);
   for (const sculpt::PinMotion& motion : state.pins->motions)
     add(named("pin", motion.name), "m, degrees", motion.track);
   if (state.obstacles)
@@ -128,6 +132,13 @@ std::vector<Keyable> keyable(const sculpt::State& state) {
   for (const sculpt::AppliedForce& force : state.loads->forces)
     if (!force.name.empty())
       add(named("force", force.name), "Keys this force as it is now", sculpt::force_at(force, now));
+  for (const sculpt::AppliedPressure& pressure : state.loads->pressures)
+    if (!pressure.name.empty())
+      add(named("pressure", pressure.name), "Keys this pressure as it is now",
+          Eigen::VectorXd::Constant(1, sculpt::pressure_at(pressure, now)));
+  if (!(*state.fields)[sculpt::FieldName::prestress].isZero(0))
+    add("prestress", "Keys which share of the field prestress acts now",
+        Eigen::VectorXd::Constant(1, sculpt::prestress_share_at(*state.loads, now)));
   for (const sculpt::PinMotion& motion : state.pins->motions)
     add(named("pin", motion.name), "Keys where these pins are now", way(motion.track));
   if (state.obstacles)

@@ -3,6 +3,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "tools/studio/quantity.h"
 
@@ -15,6 +18,17 @@ constexpr std::size_t k_points = 400;
 void append(std::vector<float>& values, double value) {
   values.push_back(static_cast<float>(value));
   if (values.size() > k_points) values.erase(values.begin());
+}
+
+/// "0.12 J to friction, 3 mJ to flow", of what has left the body for good; empty if nothing has.
+std::string lost_words(const sculpt::LostEnergy& lost) {
+  std::string words;
+  for (const auto& [value, to] : {std::pair{lost.friction, "friction"}, std::pair{lost.flow, "flow"}}) {
+    if (!(value > 0)) continue;
+    const Quantity quantity = shown(value, "J");
+    words += (words.empty() ? "" : ", ") + quantity.number + ' ' + quantity.unit + " to " + to;
+  }
+  return words;
 }
 
 }  // namespace
@@ -40,6 +54,9 @@ void draw_plot(Desk& desk, const Plot& plot, const std::vector<float>& values, f
     ui.text(draw, ui.fonts().small, {place.x, place.y, place.width, place.height}, t.faint, plot.empty,
             Side::centre);
   }
+  if (std::string_view(plot.unit) == "J")
+    ui.text(draw, ui.fonts().small, {place.x, place.y - ui.px(18), place.width, ui.px(16)}, t.faint,
+            lost_words(desk.now->state.lost));
   ui.note_control(ControlKind::reading, plot.name, plot.tooltip, plot.unit, place);
   ui.skip(88);
 }
