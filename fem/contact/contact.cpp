@@ -24,16 +24,20 @@ double along(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Energy of a spring that gives way at a force: Huber's function of its length.
-double friction_energy(double stiffness, double length, double limit) {
-  if (stiffness * length <= limit) return 0.5 * stiffness * length * length;
-  return limit * (length - 0.5 * limit / stiffness);
-}
-
 }  // namespace
 
 bool Touch::slips() const {
   return stiffness * size_of(stretch) > limit;
+}
+
+double Touch::friction_energy(double at_limit) const {
+  const double length = size_of(stretch);
+  if (stiffness * length <= at_limit) return 0.5 * stiffness * length * length;
+  return at_limit * (length - 0.5 * at_limit / stiffness);
+}
+
+double Touch::slid() const {
+  return slips() ? size_of(stretch) - limit / stiffness : 0;
 }
 
 Eigen::Vector3d Touch::force() const {
@@ -245,11 +249,11 @@ double ContactStep::energy(const Eigen::Matrix3Xd& positions) const {
     if (own.distance < 0) {
       const Touch t = touch(o, i, at, own);
       sum = 0.5 * t.stiffness * t.depth * t.depth;
-      if (limits_[k] > 0) sum += friction_energy(t.stiffness, size_of(t.stretch), limits_[k]);
+      if (limits_[k] > 0) sum += t.friction_energy(limits_[k]);
     } else if (limits_[k] > 0) {
       // It has left, but its friction was taken as it was: the energy stays continuous.
       const Touch t = touch(o, i, at, own);
-      sum = friction_energy(t.stiffness, size_of(t.stretch), limits_[k]);
+      sum = t.friction_energy(limits_[k]);
     }
     return sum;
   });
@@ -335,98 +339,6 @@ std::vector<AnchorSpring> ContactStep::springs() const {
     spring.target = t.position;
     spring.stiffness = t.stiffness;
     result.push_back(std::move(spring));
-  }
-  return result;
-}
-
-namespace {
-
-/// Calls with every point within, and its depth.
-template <class Visit>
-void visit_within(const Contact& contact, const BodyState& state, std::uint32_t id, const Visit& visit) {
-  const auto obstacle = std::ranges::find(contact.obstacles, id, &Obstacle::id);
-  if (obstacle == contact.obstacles.end()) return;
-  const ObstaclePose pose = pose_at(*obstacle, state.time);
-  Eigen::Matrix3Xd x;
-  multiply(contact.surface->rows, state.positions, x);
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    const Eigen::Vector3d own = pose.own(x.col(i));
-    const double distance = signed_distance(*obstacle, own).distance;
-    if (distance < 0) visit(static_cast<std::uint32_t>(i), own, -distance);
-  }
-}
-
-}  // namespace
-
-Overlap overlap(const Contact& contact, const BodyState& state, std::uint32_t id) {
-  Overlap result;
-  visit_within(contact, state, id, [&](std::uint32_t, const Eigen::Vector3d&, double depth) {
-    ++result.points;
-    result.depth = std::max(result.depth, depth);
-  });
-  return result;
-}
-
-void allow_overlap(const Contact& contact, BodyState& state, std::uint32_t id, double duration) {
-  const double rate = overlap(contact, state, id).depth / duration;
-  std::erase_if(state.grips, [&](const ContactGrip& grip) { return grip.obstacle == id; });
-  visit_within(contact, state, id, [&](std::uint32_t point, const Eigen::Vector3d& own, double depth) {
-    ContactGrip grip{.obstacle = id, .point = point, .anchor = own};
-    grip.allowed = depth;
-    grip.allowed_rate = rate;
-    state.grips.push_back(grip);
-  });
-  std::ranges::stable_sort(state.grips, [](const ContactGrip& a, const ContactGrip& b) {
-    return std::pair{a.obstacle, a.point} < std::pair{b.obstacle, b.point};
-  });
-}
-
-double stored_energy(const Contact& contact, const BodyState& state) {
-  ContactStep step(contact, state, state.time);
-  step.set_state(state.positions);
-  double sum = 0;
-  for (const Touch& t : step.touches()) {
-    sum += 0.5 * t.stiffness * t.depth * t.depth;
-    if (t.limit > 0) sum += friction_energy(t.stiffness, size_of(t.stretch), t.limit);
-  }
-  return sum;
-}
-
-double friction_loss(const Contact& contact, const BodyState& begin, const BodyState& end) {
-  ContactStep before(contact, begin, begin.time), step(contact, begin, end.time);
-  before.set_state(begin.positions);
-  step.set_state(end.positions);
-  const auto key = [](const Touch& t) { return std::pair{t.obstacle, t.point}; };
-  double sum = 0;
-  auto still = step.touches().begin();
-  for (const Touch& t : before.touches()) {
-    if (!(t.limit > 0)) continue;
-    while (still != step.touches().end() && key(*still) < key(t)) ++still;
-    if (still == step.touches().end() || key(*still) != key(t))
-      sum += friction_energy(t.stiffness, size_of(t.stretch), t.limit);
-  }
-  for (const Touch& t : step.touches())
-    if (t.limit > 0 && t.slips()) sum += t.limit * (size_of(t.stretch) - t.limit / t.stiffness);
-  return sum;
-}
-
-Eigen::Matrix3Xd contact_forces(const Contact& contact, const BodyState& state) {
-  ContactStep step(contact, state, state.time);
-  step.set_state(state.positions);
-  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, state.positions.cols());
-  step.add_forces(result);
-  return result;
-}
-
-Wrench contact_wrench(const Contact& contact, const BodyState& state, std::uint32_t id) {
-  ContactStep step(contact, state, state.time);
-  step.set_state(state.positions);
-  Wrench result;
-  for (const Touch& t : step.touches()) {
-    if (id != 0 && contact.obstacles[t.obstacle].id != id) continue;
-    const Eigen::Vector3d force = t.force();
-    result.force += force;
-    result.moment += t.position.cross(force);
   }
   return result;
 }

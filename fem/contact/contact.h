@@ -37,6 +37,10 @@ struct Touch {
   double depth = 0, stiffness = 0;                    // [m], [N/m]
   double limit = 0;                                   // of friction: μ times the normal force [N]
   [[nodiscard]] bool slips() const;
+  /// Of the spring of friction, if it gives way at a force (Huber's function of its length) [J].
+  [[nodiscard]] double friction_energy(double at_limit) const;
+  /// What of the stretch the spring does not hold [m].
+  [[nodiscard]] double slid() const;
   [[nodiscard]] Eigen::Vector3d force() const;  // on the body [N]
   /// Its derivative −∂f/∂x as add_product() takes it [N/m].
   [[nodiscard]] Eigen::Matrix3d tangent() const;
@@ -97,8 +101,8 @@ struct Overlap {
   double depth = 0;  // of the deepest [m]
 };
 [[nodiscard]] Overlap overlap(const Contact& contact, const BodyState& state, std::uint32_t id);
-/// Lets the points that are in an obstacle now be as deep as they are, less with time until all are out `duration` [s]
-/// from now: they are pushed out no faster than that asks for, instead of by the force of their depth.
+/// Lets the points that are in an obstacle now be as deep as they are, less with time until all are out `duration`
+/// [s] from now: they are pushed out no faster than that asks for, instead of by the force of their depth.
 void allow_overlap(const Contact& contact, BodyState& state, std::uint32_t id, double duration);
 
 /// What contact stores in a state as it stands, at depth and in the springs of friction [J].

@@ -63,13 +63,14 @@ struct SignedDistance {
 struct Entry {
   Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
 };
-/// Of a way in the obstacle's own frame: its first point of contact, or, from a beginning within and further in, the
-/// surface point nearest to that. Nothing where it misses or leads out. By Newton's method on the distance, which is
-/// convex: to 1e-9 of the size; at most 64 steps, after which a way that grazes counts as a miss.
+/// Of a way in the obstacle's own frame: its first point of contact, or, from a beginning within and further in,
+/// the surface point nearest to that. Nothing where it misses or leads out. By Newton's method on the distance,
+/// which is convex: to 1e-9 of the size; at most 64 steps, after which a way that grazes counts as a miss.
 [[nodiscard]] std::optional<Entry> first_touch(const Obstacle& obstacle, const Eigen::Vector3d& from,
                                                const Eigen::Vector3d& to);
 /// As signed_distance(), of a point that came in by `entry`: while it is beneath the entry's plane and somewhere
-/// along its normal the obstacle lies or lay above it, it is that deep under the plane, be it out on the other side.
+/// along its normal the obstacle lies or lay above it, it is that deep under the plane, be it out on the other
+/// side.
 [[nodiscard]] SignedDistance signed_distance(const Obstacle& obstacle, const Entry& entry,
                                              const Eigen::Vector3d& own);
 

@@ -191,6 +191,36 @@ TEST(Wires, OnlyThoseThatNobodyWouldSeeAreLeftOut) {
   }
 }
 
+TEST(ScenePainter, InAHurryLeavesOutFaintWiresAlone) {
+  for (const int cells : {3, 60}) {
+    Stage stage(box(cells));
+    const auto picture = [&](bool wires, bool hurried) {
+      stage.painter.set_look(wires, false);
+      const Target target(stage.gl, k_width, k_height, true);
+      target.bind();
+      Sampling sampling = stage.sampling;
+      sampling.hurried = hurried;
+      stage.painter.paint(stage.camera, sampling, 0, 0);
+      return stage.read(target);
+    };
+    EXPECT_EQ(picture(false, true), picture(false, false));
+    if (cells == 3)
+      EXPECT_EQ(picture(true, true), picture(true, false));
+    else
+      EXPECT_LE(largest_difference(picture(true, true), picture(true, false)), 26);  // a tenth, where wires cross
+  }
+}
+
+TEST(SurfaceMesh, KnowsWhetherItIsClosed) {
+  sculpt::SceneSurface surface = box(2).surface;
+  EXPECT_TRUE(surface_mesh(surface, surface.positions).is_closed);
+  const std::size_t last = surface.offsets[surface.offsets.size() - 2];
+  surface.offsets.pop_back();
+  surface.corners.resize(last);
+  surface.cell_from_face.pop_back();
+  EXPECT_FALSE(surface_mesh(surface, surface.positions).is_closed);
+}
+
 TEST(OpennessMeasure, TakesItsTimeOverLargeMeshesAndComesToTheSame) {
   const sculpt::Scene scene = box(120);
   std::vector<Eigen::Vector3f> positions;

@@ -32,7 +32,7 @@ class Viewport {
   void draw(const Desk& desk, const Input& input, unsigned framebuffer);
   /// False while drawing the same again would show it smoother or better shaded.
   bool is_finished() const {
-    return average_ && average_->count() == view::SampleAverage::k_most && painter_.is_shaded();
+    return average_ && !hurried_ && average_->count() == view::SampleAverage::k_most && painter_.is_shaded();
   }
   /// What lies over the picture: numbers at the arrow, the plane's handle, why a tool cannot act.
   void draw_marks(Desk& desk);
@@ -69,6 +69,7 @@ class Viewport {
   double right_x_ = 0, right_y_ = 0;  // where the right button went down
   std::unique_ptr<view::SampleAverage> average_;
   SamplePace pace_;
+  bool hurried_ = false;  // what the average holds
   view::Place place_;
   OrbitCamera camera_;
   std::uint64_t layout_ = 0, version_ = 0;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "tools/studio/quantity.h"
 #include "tools/studio/viewport.h"
@@ -16,6 +18,13 @@ namespace argil::studio {
 namespace {
 
 constexpr double k_longest_arrow = 0.3;  // of the solid's radius, at the force limit or where the force is large
+
+/// Others hold what they took at their press, whatever the pen does then.
+bool goes_over_clay(const ShelfTool& tool) {
+  return tool.kind == ToolKind::paint || tool.kind == ToolKind::mask ||
+         (tool.kind == ToolKind::force &&
+          std::set<std::string_view>{"inflate", "pinch", "smooth"}.contains(tool.name));
+}
 
 }  // namespace
 
@@ -68,7 +77,9 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
   view::BrushMark mark;
   const bool shows_brush =
       now.scene && desk.tool().kind != ToolKind::extrude && !desk.settings.choosing && desk.pending.tool == nullptr;
-  const double radius = drag_ == Drag::radius ? brush_now_ : desk.brush.radius;
+  double radius = drag_ == Drag::radius ? brush_now_ : desk.brush.radius;
+  if (drag_ == Drag::stroke && settings.pen == PenScales::radius && goes_over_clay(desk.tool()))
+    radius *= pressure_;
   mark.radius = static_cast<float>(radius / place_.radius);
   mark.falloff = desk.brush.falloff == "linear" ? 1 : desk.brush.falloff == "constant" ? 2 : 0;
   Ink tint = inverts_ ? t.mark : t.accent;
@@ -113,7 +124,10 @@ void Viewport::draw(const Desk& desk, const Input& input, unsigned framebuffer) 
     scene_changed_ = overlay_changed_ = false;
     average_->restart();
   }
-  const view::Sampling sampling{input.width, input.height, 1, input.scale};
+  // What was drawn in haste does not stay.
+  if (!moves && hurried_) average_->restart();
+  hurried_ = moves && pace_.samples() == 1;
+  const view::Sampling sampling{input.width, input.height, 1, input.scale, hurried_};
   for (int i = 0; i < pace_.samples() && average_->count() < view::SampleAverage::k_most; ++i) {
     const view::Camera shifted = average_->shifted(camera);
     average_->begin_sample();

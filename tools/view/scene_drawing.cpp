@@ -146,7 +146,13 @@ void ScenePainter::draw_surface(const Camera& camera, const Sampling& sampling) 
   set_colour(gl, surface_program_.at("brush_tint"), brush_.tint);
   gl.Uniform2f(surface_program_.at("brush_look"), static_cast<float>(brush_.falloff),
                1.6F * sampling.pixel * static_cast<float>(sampling.factor));
+  // Of a closed surface no back shows, unless it is turned inside out.
+  if (sampling.hurried && mesh_.is_closed) {
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_BACK);
+  }
   surface_.draw(shown_triangles_);
+  gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 

@@ -16,6 +16,7 @@ struct Sampling {
   int width = 0, height = 0;  // of the picture [pixels]
   int factor = 1;             // samples a pixel along each axis
   float pixel = 1;            // lines and marks are as many pixels wide as at 1280 x 800 times this
+  bool hurried = false;       // for a moment, as while the view turns: what hardly shows may be left out
 };
 
 /// Shorter lines fade, so that a fine mesh does not cover what it lies on. Lengths and widths in pixels.

@@ -43,8 +43,8 @@ std::vector<FaceEdge> face_edges(const sculpt::SceneSurface& surface) {
   return edges;
 }
 
-/// Sets of corners that share a normal.
-subdiv::DisjointSets join_corners(const sculpt::SceneSurface& surface) {
+/// Sets of corners that share a normal; `is_closed` becomes false if an edge has one face.
+subdiv::DisjointSets join_corners(const sculpt::SceneSurface& surface, bool& is_closed) {
   auto sharp = surface.sharp_edges;
   for (auto& ends : sharp)
     if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
@@ -54,6 +54,7 @@ subdiv::DisjointSets join_corners(const sculpt::SceneSurface& surface) {
   const std::vector<FaceEdge> edges = face_edges(surface);
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
+    if (end - i == 1) is_closed = false;
     if (end - i != 2 || is_cut(surface, edges[i].face) != is_cut(surface, edges[i + 1].face)) continue;
     if (std::binary_search(sharp.begin(), sharp.end(), edges[i].ends)) continue;
     for (const int k : {0, 1}) sets.unite(edges[i].corner[k], edges[i + 1].corner[k]);
@@ -117,7 +118,8 @@ void move(SurfaceMesh& mesh, const sculpt::SceneSurface& surface, const std::vec
 SurfaceMesh surface_mesh(const sculpt::SceneSurface& surface, const std::vector<Eigen::Vector3f>& positions) {
   assert(surface.cell_from_face.size() + 1 == surface.offsets.size());
   SurfaceMesh mesh;
-  subdiv::DisjointSets sets = join_corners(surface);
+  mesh.is_closed = true;
+  subdiv::DisjointSets sets = join_corners(surface, mesh.is_closed);
   std::vector<std::uint32_t> vertex_from_root(surface.corners.size(), k_none);
   mesh.vertex_from_corner.resize(surface.corners.size());
   for (std::uint32_t corner = 0; corner < surface.corners.size(); ++corner) {

@@ -23,6 +23,7 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> vertex_from_corner;  // of the surface's corners
   // The same with quadrilaterals of two triangles, without middles and so without cells: half as many.
   std::vector<std::uint32_t> simple_triangles;
+  bool is_closed = false;  // every edge has two faces, or more
 };
 
 /// `positions`: of the surface's vertices in the coordinates of the picture. Corners of a vertex share a normal

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float k_full_length = 22, k_faded_length = 0.07F * k_full_length;  // [pixels]
 constexpr float k_invisible = 1.0F / 510;                                    // opacity
+constexpr float k_faint = 0.1F;  // of the tint's opacity, for a moment not missed
 constexpr float k_aside = 1.5F;  // away from the middle of the picture a line may be longer by this factor
 
 }  // namespace
@@ -41,9 +42,10 @@ void Wires::move(const sculpt::SceneSurface& surface, const std::vector<Eigen::V
 
 GLsizei Wires::visible(const Camera& camera, const Sampling& sampling, float opacity) const {
   // The strength that rounds to nothing, at the foot of the smooth step that fades (3 t^2), and the length with it.
-  const float t = std::sqrt(k_invisible / (3 * std::max(opacity, k_invisible)));
+  const float strength = sampling.hurried ? k_faint : k_invisible / std::max(opacity, k_invisible);
+  const float t = std::sqrt(strength / 3);
   const float pixels = (k_faded_length + t * (k_full_length - k_faded_length)) * sampling.pixel;
-  const float shortest = pixels * camera.pixel_at_unit_distance * camera.nearest / k_aside;
+  const float shortest = pixels * camera.pixel_at_unit_distance * camera.nearest / (sampling.hurried ? 1 : k_aside);
   std::size_t count = lengths_.size();
   while (count > 0 && lengths_[count - 1] < shortest) --count;
   return static_cast<GLsizei>(count);

@@ -16,7 +16,7 @@ class Pull : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Pull, testing::Values("default", "cubic"));
 
 TEST_P(Pull, HalfThePressureIsHalfTheForce) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   const Eigen::Matrix3Xd& p = session.document().positions();
   Tool tool;
   tool.radius = 0.09;

@@ -98,7 +98,7 @@ TEST_P(Tools, InflatePressesAlongTheNormals) {
 }
 
 TEST_P(Tools, InflatePressesOnLessWhereTheDeviceIsSmaller) {
-  TestSession session(block(GetParam()));
+  TestSession session(held_block(GetParam()));
   session.run({"levels 2"});  // the smaller brush is to have points enough
   const Tool tool = tool_of("inflate");
   const Eigen::Matrix3Xd& p = session.document().positions();
