@@ -65,6 +65,35 @@ TEST(Timeline, AKeyIsDraggedAsOneLineThatUndoTakesBack) {
   EXPECT_EQ(hash(window), before);
 }
 
+TEST(Timeline, PressuresAndPrestressAreKeysLikeOthers) {
+  Offscreen window(small_window("timeline_pressure"));
+  window.workshop().run_together({"pressure 100 as bag where z > 0.49", "key pressure bag amount 200 at 0.5",
+                                  "set prestress 50", "key prestress amount 0.25 at 0.5"});
+  window.wait(2);
+  const sculpt::State& state = document(window).state();
+  EXPECT_EQ(key_times(state), (std::vector<double>{0, 0.5}));
+  const std::string said = control(window, "Key at 0.5 s").tooltip;
+  EXPECT_NE(said.find("pressure bag amount 200 Pa"), said.npos) << said;
+  EXPECT_NE(said.find("prestress amount 0.25"), said.npos) << said;
+  // What is offered to be keyed, and what moves or sets a key, are lines that run.
+  std::vector<std::string> lines = lines_to_move_keys(state, 0.5, 0.75);
+  EXPECT_EQ(lines.size(), 2U);
+  int offered = 0;
+  for (const Keyable& one : keyable(state))
+    if (one.label.starts_with("pressure") || one.label.starts_with("prestress")) {
+      ++offered;
+      lines.insert(lines.end(), one.lines.begin(), one.lines.end());
+    }
+  EXPECT_EQ(offered, 2);
+  for (const Keyed& one : keyed(state)) lines.push_back(line_to_set_key(one, 0.25));
+  window.workshop().run_together(lines);
+  window.wait(2);
+  EXPECT_TRUE(window.now().messages.empty() || window.now().messages.back().kind != MessageKind::error)
+      << window.now().messages.back().text;
+  EXPECT_EQ(key_times(document(window).state()), (std::vector<double>{0, 0.25, 0.75}));
+  EXPECT_EQ(hash(window), hash_of_journal(window, "timeline_pressure_replayed"));
+}
+
 TEST(Timeline, AMarkStandsForAllKeysOfItsTime) {
   Offscreen window(small_window("timeline_all"));
   window.workshop().run_together({"key gravity 0 0 -1 at 0.5", "force 0 0 0 as gust where z > 0.49",

@@ -33,7 +33,8 @@ struct Keyable {
   std::string label, help;
   std::vector<std::string> lines;
 };
-/// Gravity, named forces, what is selected (which is held from then on), the sets that are led already, obstacles.
+/// Gravity, named forces and pressures, prestress that is painted, what is selected (which is held from then on),
+/// the sets that are led already, obstacles.
 [[nodiscard]] std::vector<Keyable> keyable(const sculpt::State& state);
 
 }  // namespace argil::studio

@@ -274,17 +274,20 @@ TEST(Keys, LeaveTheHashOfWhatHasNoneAlone) {
 
 TEST(Keys, MoveToAnotherTimeAsTheyAre) {
   // As if they had been set there: the same hash, for each kind of what has keys.
-  const auto with = [](const std::string& at, const std::string& of) {
-    return bar_and(
-        {"pin where x < 0.01", "select vertices as foot where x < 0.01", "force 0 0 0 as push where x > 0.39",
-         "obstacle floor plane",
-         fmt::format("key {} {} at 0.1", of,
-                     of.starts_with("pin") || of.starts_with("obs") ? "move 0.1 0.2 0.3 rotate 77 axis 1 2 3"
-                                                                    : "0.1 0.2 0.3"),
-         fmt::format("key {} {} at {} interpolation linear", of,
-                     of.starts_with("pin") || of.starts_with("obs") ? "move 0.3 0.1 0.7" : "0.3 0.1 0.7", at)});
+  const auto value = [](const std::string& of, bool first) {
+    if (of.starts_with("pr")) return first ? "amount 0.3" : "amount 0.7";
+    if (of.starts_with("pin") || of.starts_with("obs"))
+      return first ? "move 0.1 0.2 0.3 rotate 77 axis 1 2 3" : "move 0.3 0.1 0.7";
+    return first ? "0.1 0.2 0.3" : "0.3 0.1 0.7";
   };
-  for (const std::string of : {"gravity", "force push", "pin foot", "obstacle floor"}) {
+  const auto with = [&](const std::string& at, const std::string& of) {
+    return bar_and({"pin where x < 0.01", "select vertices as foot where x < 0.01",
+                    "force 0 0 0 as push where x > 0.39", "pressure 0 as bag where x > 0.39", "set prestress 50",
+                    "obstacle floor plane", fmt::format("key {} {} at 0.1", of, value(of, true)),
+                    fmt::format("key {} {} at {} interpolation linear", of, value(of, false), at)});
+  };
+  for (const std::string of :
+       {"gravity", "force push", "pressure bag", "prestress", "pin foot", "obstacle floor"}) {
     TestSession moved(with("0.5", of)), there(with("0.8", of));
     const std::uint64_t before = moved.hash();
     moved.run({"key " + of + " at 0.5 to 0.8"});

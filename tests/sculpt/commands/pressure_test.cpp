@@ -228,7 +228,8 @@ TEST(Pressure, SaysWhatIsWrong) {
   TestSession test(box({"pressure 5 as bag where z > 0.0999"}));
   EXPECT_THAT(test.fault_of("key pressure sack amount 5 at 1").what(), HasSubstr("no pressure named 'sack'"));
   EXPECT_THAT(test.fault_of("key pressure bag path 0 0 0 0").what(), HasSubstr("one number"));
-  EXPECT_THAT(test.fault_of("key gravity to 5 at 1").what(), HasSubstr("three components"));
+  EXPECT_THAT(test.fault_of("key gravity amount 5 at 1").what(), HasSubstr("three components"));
+  EXPECT_THAT(test.fault_of("key pressure bag at 1 to 2").what(), HasSubstr("has no keys"));
   EXPECT_THAT(test.fault_of("key prestress arm amount 5 at 1").what(), HasSubstr("no name"));
   EXPECT_THAT(test.fault_of("key pressure bag course -1 5").what(), HasSubstr("time begins at 0 s"));
   EXPECT_THAT(test.fault_of("pressure as bag where z > 0.0999").what(), HasSubstr("wants its size"));
