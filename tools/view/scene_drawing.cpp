@@ -11,6 +11,7 @@ namespace {
 
 constexpr float k_hidden = 0.28F;  // what is left of lines and arrows behind the surface
 constexpr float k_hidden_pin = 0.32F;
+constexpr float k_behind_fronts = 131072;  // of 2^24, the scene's range of depths
 constexpr float k_wire_in_volume = 0.45F;
 constexpr float k_felt_below = 0.6F;  // of the force's colour, at the foot of the background
 
@@ -146,12 +147,18 @@ void ScenePainter::draw_surface(const Camera& camera, const Sampling& sampling) 
   set_colour(gl, surface_program_.at("brush_tint"), brush_.tint);
   gl.Uniform2f(surface_program_.at("brush_look"), static_cast<float>(brush_.falloff),
                1.6F * sampling.pixel * static_cast<float>(sampling.factor));
-  // Of a closed surface no back shows, unless it is turned inside out.
-  if (sampling.hurried && mesh_.is_closed) {
+  if (!mesh_.is_closed) {
+    surface_.draw(shown_triangles_);
+  } else {
+    // No back shows, unless the body is turned inside out there; along the outline fronts must win.
     gl.Enable(GL_CULL_FACE);
     gl.CullFace(GL_BACK);
+    surface_.draw(shown_triangles_);
+    gl.CullFace(GL_FRONT);
+    gl.PolygonOffset(1, k_behind_fronts);
+    if (!sampling.hurried) surface_.draw(shown_triangles_);
+    gl.CullFace(GL_BACK);
   }
-  surface_.draw(shown_triangles_);
   gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
