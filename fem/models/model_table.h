@@ -38,8 +38,8 @@ struct ModelKind {
 /// @throws Error (not_found) for the name, (unsupported) where the model lacks the formulation.
 void check_model(const ModelChoice& choice);
 
-/// The blocks must outlive the model; as in force_model.h. Prestress that a block has now is added to the model, the
-/// share of it that acts as in prestress.h.
+/// The blocks must outlive the model; as in force_model.h. Prestress that a block has now is added to the model,
+/// the share of it that acts as in prestress.h.
 /// @throws what check_model() throws, and (unsupported) naming an element kind that the model has no forces for, or
 /// prestress that it cannot take.
 [[nodiscard]] std::unique_ptr<ForceModel> make_model(const ModelChoice& choice,
