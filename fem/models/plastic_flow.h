@@ -47,13 +47,15 @@ FlowReport flow(std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& no
 
 /// @throws Error (unsupported) naming the model that cannot flow, with those that can.
 void check_flow(const ModelChoice& choice);
-
+// clang-format off
 /// The model of a body that has flowed; as make_model(), and initial stress acts as before the flow. It keeps what
 /// it needs of `state`, which must fit or be empty. @throws what make_model() and check_flow() throw.
-[[nodiscard]] std::unique_ptr<ForceModel> make_flowed_model(
-    const ModelChoice& choice, std::span<const ElementBlock> blocks, const Eigen::Matrix3Xd& rest_nodes,
-    const PlasticFlow& state, std::shared_ptr<const double> prestress_share = nullptr);
-
+[[nodiscard]] std::unique_ptr<ForceModel> make_flowed_model(const ModelChoice& choice,
+                                                            std::span<const ElementBlock> blocks,
+                                                            const Eigen::Matrix3Xd& rest_nodes,
+                                                            const PlasticFlow& state,
+                                                            std::shared_ptr<const double> prestress_share = nullptr);
+// clang-format on
 /// Accumulated √(2/3) |log of F_p's stretch| of every point, block by block: how far it has flowed from where it
 /// began, not how long its way was.
 [[nodiscard]] std::vector<std::vector<double>> plastic_strain(const PlasticFlow& state);
