@@ -9,23 +9,10 @@
 #include <sstream>
 
 #include "sessions.h"
+#include "sharp_box.h"
 
 namespace argil::sculpt {
 namespace {
-
-/// A block of 4 kg, 0.2 m wide and 0.1 m high, its lower side at z = 0.
-std::vector<std::string> block(std::vector<std::string> more) {
-  std::vector<std::string> lines{"new box 2 2 1 size 0.2 0.2 0.1",
-                                 "select edges angle 30",
-                                 "sharpen",
-                                 "select vertices where valence = 3",
-                                 "sharpen",
-                                 "levels 1",
-                                 "set young_modulus 1e5",
-                                 "set density 1000"};
-  lines.insert(lines.end(), more.begin(), more.end());
-  return lines;
-}
 
 double total(TestSession& test) {
   double sum = 0;
@@ -35,8 +22,8 @@ double total(TestSession& test) {
 }
 
 double worst_gap(int steps_a_second) {
-  TestSession test(
-      block({"integrator velocity_verlet", "obstacle floor plane at 0 0 -0.05 friction 0.4", "gravity 1 0 -9.81"}));
+  TestSession test(heavy_block(
+      {"integrator velocity_verlet", "obstacle floor plane at 0 0 -0.05 friction 0.4", "gravity 1 0 -9.81"}));
   const double begin = total(test);
   double worst = 0;
   for (int i = 0; i < 40; ++i) {
@@ -63,7 +50,7 @@ struct Drop {
   double rise = 0, end = 0;
 };
 Drop drop_by(const std::string& integrator, int steps_a_second, const std::string& obstacle) {
-  TestSession test(block({"integrator " + integrator, "gravity 1 0 -9.81", "obstacle floor " + obstacle}));
+  TestSession test(heavy_block({"integrator " + integrator, "gravity 1 0 -9.81", "obstacle floor " + obstacle}));
   Drop result;
   double lowest = total(test);
   for (int i = 0; i < steps_a_second / 2; ++i) {
@@ -91,8 +78,8 @@ TEST(EnergyLedger, OfADropRisesHardlyAgainByImplicitMethods) {
 TEST(EnergyLedger, OfASlidingBlockIsTheWorkOfFriction) {
   const double angle = std::atan(0.5);
   TestSession test(
-      block({"obstacle slope plane friction 0.3",
-             fmt::format("gravity {} 0 {}", 9.81 * std::sin(angle), -9.81 * std::cos(angle)), "step 60"}));
+      heavy_block({"obstacle slope plane friction 0.3",
+                   fmt::format("gravity {} 0 {}", 9.81 * std::sin(angle), -9.81 * std::cos(angle)), "step 60"}));
   const double lost = test.measure("friction_loss"), at = test.measure("position_x at 0.1 0.1 0.05");
   const double all = total(test);
   test.run({"step 60"});
@@ -103,7 +90,7 @@ TEST(EnergyLedger, OfASlidingBlockIsTheWorkOfFriction) {
 }
 
 TEST(EnergyLedger, FlowTakesWhatTheLawLoses) {
-  TestSession test(block({"plasticity yield 500 creep 0.1"}));
+  TestSession test(heavy_block({"plasticity yield 500 creep 0.1"}));
   Eigen::Matrix3d stretch = Eigen::Vector3d(1.2, 0.95, 0.95).asDiagonal();
   test.deform(stretch);
   test.run({"pin where 1 > 0"});
@@ -119,7 +106,7 @@ TEST(EnergyLedger, IsInTheTraceAndInNoHash) {
   TestFolder folder;
   SessionOptions options;
   options.step_trace = folder.path() / "trace.csv";
-  TestSession test(block({"obstacle floor plane friction 0.4", "gravity 2 0 -9.81", "step 30"}), options);
+  TestSession test(heavy_block({"obstacle floor plane friction 0.4", "gravity 2 0 -9.81", "step 30"}), options);
   std::istringstream trace(folder.text_of("trace.csv"));
   std::string header, line, last;
   std::getline(trace, header);

@@ -8,26 +8,13 @@
 
 #include "sculpt/obstacles.h"
 #include "sessions.h"
+#include "sharp_box.h"
 
 namespace argil::sculpt {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-/// A block of 4 kg, 0.2 m wide and 0.1 m high, its lower side at z = 0, its middle above (0.1, 0.1).
-std::vector<std::string> block(std::vector<std::string> more) {
-  std::vector<std::string> lines{"new box 2 2 1 size 0.2 0.2 0.1",
-                                 "select edges angle 30",
-                                 "sharpen",
-                                 "select vertices where valence = 3",
-                                 "sharpen",
-                                 "levels 1",
-                                 "set young_modulus 1e5",
-                                 "set density 1000"};
-  lines.insert(lines.end(), more.begin(), more.end());
-  return lines;
-}
 
 void throw_at(TestSession& test, const Eigen::Vector3d& velocity) {
   State next = test.state();
@@ -55,7 +42,7 @@ TEST_P(FastBody, DoesNotPassThroughWhatIsThin) {
       if (young < 1e6 && speed > 8) continue;  // faster than its own sound it would be crushed by any wall
       SCOPED_TRACE(fmt::format("{} m/s, E = {} Pa", speed, young));
       TestSession test(
-          block({GetParam().obstacle, GetParam().integrator, fmt::format("set young_modulus {}", young)}));
+          heavy_block({GetParam().obstacle, GetParam().integrator, fmt::format("set young_modulus {}", young)}));
       throw_at(test, {0, 0, -speed});
       const int steps = static_cast<int>(std::ceil(1.0 / speed * 60)) + 6;
       double lowest = 1;
@@ -93,12 +80,12 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return fmt::format("Case{}", test.index); });
 
 TEST(FastContact, SlowBodiesKeepNoEntries) {
-  TestSession test(block({"obstacle wall box at 0.1 0.1 -0.1 size 1 1 0.1", "gravity 0 0 -9.81", "step 60"}));
+  TestSession test(heavy_block({"obstacle wall box at 0.1 0.1 -0.1 size 1 1 0.1", "gravity 0 0 -9.81", "step 60"}));
   EXPECT_TRUE(test.state().motion->grips.empty());
 }
 
 TEST(FastContact, EntriesAreHashedAndUndone) {
-  TestSession test(block({"obstacle wall box at 0.1 0.1 -0.305 size 1 1 0.01"}));
+  TestSession test(heavy_block({"obstacle wall box at 0.1 0.1 -0.305 size 1 1 0.01"}));
   throw_at(test, {0, 0, -30});
   test.run({"step"});
   ASSERT_FALSE(test.state().motion->grips.empty());
@@ -126,7 +113,7 @@ TEST(Overlap, IsSaidAndPushesOutSlowly) {
                                "sphere at 0.1 0.1 -0.03 radius 0.05", "box at 0.1 0.1 -0.1 size 1 1 0.24"}) {
     SCOPED_TRACE(obstacle);
     Said said;
-    TestSession test(block({fmt::format("obstacle floor {}", obstacle)}), said.options());
+    TestSession test(heavy_block({fmt::format("obstacle floor {}", obstacle)}), said.options());
     EXPECT_THAT(said.all(), HasSubstr("the body is in floor already"));
     EXPECT_THAT(said.all(), HasSubstr("over the next 0.5 s"));
     double most = 0;
@@ -144,23 +131,23 @@ TEST(Overlap, IsSaidAndPushesOutSlowly) {
 }
 
 TEST(Overlap, OfABodyUnderItsWeightEndsWithTheBodyOnTop) {
-  TestSession test(
-      block({"gravity 0 0 -9.81", "set damping 20", "obstacle floor plane at 0 0 0.03 friction 0.4", "step 240"}));
+  TestSession test(heavy_block(
+      {"gravity 0 0 -9.81", "set damping 20", "obstacle floor plane at 0 0 0.03 friction 0.4", "step 240"}));
   EXPECT_NEAR(test.measure("contact_force_z"), 4 * 9.81, 1e-3);
   EXPECT_NEAR(middle(test), 0.08, 0.003);
 }
 
 TEST(Overlap, OfWhatOnlyTouchesIsNotWorthANote) {
   Said said;
-  TestSession test(block({"obstacle floor plane", "gravity 0 0 -9.81", "set damping 20", "step 60",
-                          "obstacle floor plane friction 0.4", "step 1"}),
+  TestSession test(heavy_block({"obstacle floor plane", "gravity 0 0 -9.81", "set damping 20", "step 60",
+                                "obstacle floor plane friction 0.4", "step 1"}),
                    said.options());
   EXPECT_THAT(said.all(), Not(HasSubstr("already")));
   EXPECT_GT(test.measure("contact_force_z"), 30) << "it is carried all the time";
 }
 
 TEST(Overlap, IsHashedAndUndone) {
-  TestSession test(block({"step 1"}));
+  TestSession test(heavy_block({"step 1"}));
   const std::uint64_t before = test.hash();
   test.run({"obstacle floor plane at 0 0 0.05", "step 5"});
   const std::uint64_t after = test.hash();

@@ -13,29 +13,18 @@
 #include "sculpt/document_loads.h"
 #include "sculpt/picture.h"
 #include "sessions.h"
+#include "sharp_box.h"
 
 namespace argil::sculpt {
 namespace {
 
 using testing::HasSubstr;
 
-/// A block of 4 kg, 0.2 m wide and 0.1 m high, its lower side at z = 0.
-std::vector<std::string> block(std::vector<std::string> more = {}) {
-  std::vector<std::string> lines{"new box 2 2 1 size 0.2 0.2 0.1",
-                                 "select edges angle 30",
-                                 "sharpen",
-                                 "select vertices where valence = 3",
-                                 "sharpen",
-                                 "levels 1",
-                                 "set young_modulus 1e5",
-                                 "set density 1000"};
-  lines.insert(lines.end(), more.begin(), more.end());
-  return lines;
-}
 constexpr double k_mass = 4, k_gravity = 9.81;
 
 TEST(SessionObstacles, ABodyComesToRestOnAPlaneThatCarriesItsWeight) {
-  TestSession test(block({"obstacle floor plane friction 0.5", "gravity 0 0 -9.81", "set damping 20", "step 240"}));
+  TestSession test(
+      heavy_block({"obstacle floor plane friction 0.5", "gravity 0 0 -9.81", "set damping 20", "step 240"}));
   EXPECT_NEAR(test.measure("contact_force_z"), k_mass * k_gravity, 1e-6);
   EXPECT_NEAR(test.measure("contact_force_x"), 0, 1e-6);
   EXPECT_LT(test.measure("max_speed"), 1e-7) << "jitter";
@@ -61,7 +50,7 @@ std::string gravity_on_slope(double tangent) {
 
 TEST(SessionObstacles, BelowTheAngleOfFrictionABlockSticksAndDoesNotCreep) {
   TestSession test(
-      block({"obstacle slope plane friction 0.6", gravity_on_slope(0.5), "set damping 20", "step 240"}));
+      heavy_block({"obstacle slope plane friction 0.6", gravity_on_slope(0.5), "set damping 20", "step 240"}));
   const double before = test.measure("position_x at 0.1 0.1 0");
   EXPECT_LT(std::abs(before - 0.1), 1e-3) << "until friction had taken up the load";
   test.run({"step 300"});
@@ -72,7 +61,7 @@ TEST(SessionObstacles, BelowTheAngleOfFrictionABlockSticksAndDoesNotCreep) {
 }
 
 TEST(SessionObstacles, AboveItTheBlockSlidesWithGravityLessFriction) {
-  TestSession test(block({"obstacle slope plane friction 0.3", gravity_on_slope(0.5), "step 60"}));
+  TestSession test(heavy_block({"obstacle slope plane friction 0.3", gravity_on_slope(0.5), "step 60"}));
   const double first = test.measure("momentum_x"), begin = test.measure("time");
   test.run({"step 60"});
   const double found = (test.measure("momentum_x") - first) / k_mass / (test.measure("time") - begin);
@@ -85,8 +74,8 @@ TEST(SessionObstacles, AboveItTheBlockSlidesWithGravityLessFriction) {
 TEST(SessionObstacles, EnergyNeverGrowsInADrop) {
   for (const char* integrator : {"implicit_euler newton 20 tolerance 1e-8", "bdf2 newton 20 tolerance 1e-8"}) {
     SCOPED_TRACE(integrator);
-    TestSession test(block({"obstacle floor plane at 0 0 -0.05 friction 0.4", "gravity 1 0 -9.81",
-                            fmt::format("integrator {}", integrator)}));
+    TestSession test(heavy_block({"obstacle floor plane at 0 0 -0.05 friction 0.4", "gravity 1 0 -9.81",
+                                  fmt::format("integrator {}", integrator)}));
     const bool bdf2 = std::string_view(integrator).starts_with("bdf2");
     double last = 0, lowest = 0;
     for (int i = 0; i < 60; ++i) {
@@ -112,7 +101,7 @@ TEST(SessionObstacles, EnergyNeverGrowsInADrop) {
 }
 
 TEST(SessionObstacles, WhatAMovingObstacleGivesIsWhatTheBodyGains) {
-  TestSession test(block());
+  TestSession test(heavy_block());
   Document& document = test.document();
   auto contact = std::make_shared<fem::Contact>();
   contact->surface = document.contact_surface();
@@ -143,7 +132,8 @@ TEST(SessionObstacles, WhatAMovingObstacleGivesIsWhatTheBodyGains) {
 }
 
 TEST(SessionObstacles, AMovingPlaneCarriesWhatRestsOnIt) {
-  TestSession test(block({"obstacle floor plane friction 0.8", "gravity 0 0 -9.81", "set damping 5", "step 120"}));
+  TestSession test(
+      heavy_block({"obstacle floor plane friction 0.8", "gravity 0 0 -9.81", "set damping 5", "step 120"}));
   Document& document = test.document();
   fem::BodyState state = *document.state().motion;
   fem::Obstacle floor = moving_obstacles(test.state(), state.time)[0];
@@ -177,8 +167,8 @@ TEST(SessionObstacles, EveryShapeCatchesABall) {
 TEST(SessionObstacles, EveryIntegratorTakesThemOrSaysWhyNot) {
   for (const fem::MethodKind& kind : fem::method_table()) {
     SCOPED_TRACE(kind.name);
-    TestSession test(block({"obstacle floor plane friction 0.5", "gravity 0 0 -9.81", "set damping 20",
-                            fmt::format("integrator {}", kind.name)}));
+    TestSession test(heavy_block({"obstacle floor plane friction 0.5", "gravity 0 0 -9.81", "set damping 20",
+                                  fmt::format("integrator {}", kind.name)}));
     if (kind.of_published_method) {
       EXPECT_THAT(test.fault_of("step 1").what(), HasSubstr("obstacles"));
       continue;
@@ -195,16 +185,16 @@ TEST(SessionObstacles, EveryIntegratorTakesThemOrSaysWhyNot) {
 TEST(SessionObstacles, EveryForceModelTakesThem) {
   for (const fem::ModelKind& kind : fem::model_table()) {
     SCOPED_TRACE(kind.name);
-    TestSession test(block({fmt::format("model {}", kind.name), "obstacle floor plane friction 0.5",
-                            "gravity 0 0 -9.81", "set damping 20", "step 30"}));
+    TestSession test(heavy_block({fmt::format("model {}", kind.name), "obstacle floor plane friction 0.5",
+                                  "gravity 0 0 -9.81", "set damping 20", "step 30"}));
     EXPECT_LT(test.measure("contact_depth"), 0.002);
     EXPECT_GT(test.measure("contact_force_z"), 0.3 * k_mass * k_gravity);
   }
 }
 
 TEST(SessionObstacles, HashIsThatOfTheStateAtAnyNumberOfThreadsAndAfterUndo) {
-  const auto lines = block({"obstacle floor plane at 0 0 -0.01 friction 0.5",
-                            "obstacle ball sphere at 0.1 0.1 -0.2 radius 0.21", "gravity 0.5 0 -9.81"});
+  const auto lines = heavy_block({"obstacle floor plane at 0 0 -0.01 friction 0.5",
+                                  "obstacle ball sphere at 0.1 0.1 -0.2 radius 0.21", "gravity 0.5 0 -9.81"});
   std::uint64_t hash[2];
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -214,7 +204,7 @@ TEST(SessionObstacles, HashIsThatOfTheStateAtAnyNumberOfThreadsAndAfterUndo) {
   }
   EXPECT_EQ(hash[0], hash[1]);
 
-  TestSession test(block());
+  TestSession test(heavy_block());
   const std::uint64_t without = test.hash();
   test.run({"obstacle floor plane friction 0.5"});
   const std::uint64_t with = test.hash();
@@ -261,8 +251,8 @@ TEST(SessionObstacles, ABoxCatchesWhatFallsHoweverThinItIs) {
   // Falling at 6 m/s through steps of 1/60 s: 0.1 m a step.
   const auto fall = [](double thickness) {
     TestSession test(
-        block({fmt::format("obstacle shelf box at 0.1 0.1 {} size 1 1 {}", -0.5 - 0.5 * thickness, thickness),
-               "gravity 0 0 -40", "step 24"}));
+        heavy_block({fmt::format("obstacle shelf box at 0.1 0.1 {} size 1 1 {}", -0.5 - 0.5 * thickness, thickness),
+                     "gravity 0 0 -40", "step 24"}));
     return test.measure("position_z at 0.1 0.1 0.1");
   };
   EXPECT_GT(fall(0.3), -0.5);
@@ -271,7 +261,7 @@ TEST(SessionObstacles, ABoxCatchesWhatFallsHoweverThinItIs) {
 }
 
 TEST(SessionObstacles, MisuseIsRefusedWithARemedy) {
-  TestSession test(block());
+  TestSession test(heavy_block());
   const std::uint64_t before = test.hash();
   const std::pair<const char*, const char*> cases[] = {
       {"obstacle a sphere at 0 0 0 radius -1", "radius"},
@@ -298,9 +288,9 @@ TEST(SessionObstacles, MisuseIsRefusedWithARemedy) {
 }
 
 TEST(SessionObstacles, AreDrawnOutsideWhatIsPicked) {
-  TestSession test(block({"obstacle floor plane", "obstacle ball sphere at 0.1 0.1 -0.2 radius 0.2",
-                          "obstacle bar capsule from 0 0 -1 to 0.2 0 -1 radius 0.05",
-                          "obstacle shelf box at 0 0 -2 size 1 1 0.1"}));
+  TestSession test(heavy_block({"obstacle floor plane", "obstacle ball sphere at 0.1 0.1 -0.2 radius 0.2",
+                                "obstacle bar capsule from 0 0 -1 to 0.2 0 -1 radius 0.05",
+                                "obstacle shelf box at 0 0 -2 size 1 1 0.1"}));
   const Scene scene = make_scene(test.document(), {});
   ASSERT_EQ(scene.obstacles.size(), 4U);
   EXPECT_TRUE(scene.obstacles[0].is_ground);

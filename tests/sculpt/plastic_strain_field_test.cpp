@@ -9,6 +9,7 @@
 
 #include "sculpt/shown_fields.h"
 #include "sessions.h"
+#include "sharp_box.h"
 
 namespace argil::sculpt {
 namespace {
@@ -18,15 +19,8 @@ using testing::Not;
 
 constexpr double k_mu = 1e5 / 2.6;
 
-std::vector<std::string> box(const std::string& plasticity, std::vector<std::string> more = {}) {
-  std::vector<std::string> lines{"new box 2 2 2 size 0.1 0.1 0.1",
-                                 "select edges angle 30",
-                                 "sharpen",
-                                 "select vertices where valence = 3",
-                                 "sharpen",
-                                 "levels 1",
-                                 "set young_modulus 1e5",
-                                 plasticity};
+std::vector<std::string> box(const std::string& plasticity, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> lines = sharp_box("2 2 2 size 0.1 0.1 0.1", {plasticity});
   lines.insert(lines.end(), more.begin(), more.end());
   return lines;
 }

@@ -174,13 +174,19 @@ TEST(Previewer, MakesTheLastToItsEnd) {
 /// Stands in for the making of films: it goes on until it is let, writing a file meanwhile.
 struct SlowFilm {
   std::atomic<bool> runs{false}, may_end{false};
+  std::atomic<int> ended_early = 0;
   std::string session;
 
   FilmMaker maker() {
     return [this](const FilmOrder& order, const Progress::Listener& progress) -> std::string {
       session = order.session;
       runs = true;
-      for (long i = 0; !may_end; ++i) progress(std::min(0.9, 0.001 * static_cast<double>(i)), "picture");
+      try {
+        for (long i = 0; !may_end; ++i) progress(std::min(0.9, 0.001 * static_cast<double>(i)), "picture");
+      } catch (...) {
+        ++ended_early;
+        throw;
+      }
       runs = false;
       return "the film is there";
     };
@@ -242,7 +248,7 @@ TEST(Darkroom, AFilmIsCancelledAndEndsWithTheWindow) {
     workshop.post([](Bench& b) { b.film(false); });
     ASSERT_TRUE(comes([&] { return film.runs.load(); }));
   }
-  SUCCEED() << "the workshop's end ended the film";
+  EXPECT_EQ(film.ended_early, 2);  // by the sculptor, and by the workshop's end
 }
 
 // The note stands over the view until the film is there; Esc is for what the hand does, and ends no film.

@@ -9,6 +9,7 @@
 
 #include "sculpt/document_loads.h"
 #include "tests/sculpt/sessions.h"
+#include "tests/sculpt/sharp_box.h"
 
 namespace argil::sculpt {
 namespace {
@@ -18,16 +19,9 @@ using testing::HasSubstr;
 constexpr double k_young = 1e5, k_poisson = 0.3,
                  k_bulk = k_young / (1 - 2 * k_poisson);  // stress a stretch, all round
 
-std::vector<std::string> box(std::vector<std::string> more) {
-  std::vector<std::string> lines{"new box 2 2 2 size 0.1 0.1 0.1",
-                                 "select edges angle 30",
-                                 "sharpen",
-                                 "select vertices where valence = 3",
-                                 "sharpen",
-                                 "levels 1",
-                                 "set young_modulus 1e5",
-                                 "set poisson_ratio 0.3",
-                                 "set density 1000"};
+std::vector<std::string> box(const std::vector<std::string>& more) {
+  std::vector<std::string> lines =
+      sharp_box("2 2 2 size 0.1 0.1 0.1", {"set poisson_ratio 0.3", "set density 1000"});
   lines.insert(lines.end(), more.begin(), more.end());
   return lines;
 }
